@@ -113,6 +113,17 @@ impl TransitDomain {
         self.north_east.north_m - self.south_west.north_m
     }
 
+    /// How far a point is beyond the rectangle that lies `clearance_m` inside this
+    /// one, m; 0 inside it.
+    pub(super) fn beyond_m(&self, point: Position, clearance_m: f64) -> f64 {
+        let beyond = |at: f64, low: f64, high: f64| {
+            (low + clearance_m - at).max(at - (high - clearance_m)).max(0.0)
+        };
+        let east_m = beyond(point.east_m, self.south_west.east_m, self.north_east.east_m);
+        let north_m = beyond(point.north_m, self.south_west.north_m, self.north_east.north_m);
+        east_m.hypot(north_m)
+    }
+
     /// Whether a point is inside.
     pub fn contains(&self, point: Position) -> bool {
         (self.south_west.east_m..=self.north_east.east_m).contains(&point.east_m)

@@ -6,6 +6,7 @@ use crate::grid::Position;
 use crate::navigation::vehicle::SECONDS_PER_HOUR;
 use crate::navigation::{Vehicle, Voyage};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// What to solve for, and how finely.
 pub(super) struct BackwardSweep<'a> {
@@ -18,14 +19,14 @@ pub(super) struct BackwardSweep<'a> {
     pub(super) lost_h: f32,
 }
 
-/// How a vehicle moves in one step from a node: x + drift + steering · e(ψ), in
-/// metres. The current is taken along the way: u + ∇u · (u + V e(ψ)) Δt/2, the
+/// How a vehicle moves in one step from a node: x + drift + steering · e(ψ), counted
+/// in nodes. The current is taken along the way: u + ∇u · (u + V e(ψ)) Δt/2, the
 /// midpoint rule with the field linearised about the node.
 #[derive(Clone, Copy)]
 struct Motion {
-    drift_m: [f64; 2],
+    drift: [f32; 2],
     /// Rows: east and north; columns: parts of e(ψ).
-    steering_m: [[f64; 2]; 2],
+    steering: [[f32; 2]; 2],
 }
 
 /// A goal near enough to a node to be reached within one step.
@@ -48,6 +49,7 @@ impl BackwardSweep<'_> {
         let lanes = ValueFunction::lanes_for(self.voyage.goals.len());
         let land = self.land();
         let captures = self.captures();
+        let directions = self.directions();
         let mut hours = vec![0.0; (self.steps + 1) * nodes * lanes];
         self.set_horizon(&mut hours[self.steps * nodes * lanes..], lanes, &land);
 
@@ -59,7 +61,7 @@ impl BackwardSweep<'_> {
                 .par_chunks_mut(self.grid.columns * lanes)
                 .enumerate()
                 .for_each(|(row, values)| {
-                    self.relax_row(row, values, later, lanes, &motions, &land);
+                    self.relax_row(row, values, later, &motions, &land, &directions);
                     self.capture(row, values, lanes, &motions, &captures[row]);
                 });
         }
@@ -71,6 +73,15 @@ impl BackwardSweep<'_> {
             lanes,
             hours,
         }
+    }
+
+    /// The headings' directions, [east, north].
+    fn directions(&self) -> Vec<[f32; 2]> {
+        let direction = |heading: usize| {
+            let (east, north) = (TAU * heading as f64 / self.headings as f64).sin_cos();
+            [east as f32, north as f32]
+        };
+        (0..self.headings).map(direction).collect()
     }
 
     /// Which nodes are land; empty where all is water.
@@ -147,16 +158,20 @@ impl BackwardSweep<'_> {
             );
             let [u, v] = velocity[node];
             let half_s = seconds / 2.0;
-            let steering = seconds * self.voyage.vehicle.speed_m_s();
-            Motion {
-                drift_m: [0, 1].map(|part| {
-                    seconds * (velocity[node][part] + half_s * (dx[part] * u + dy[part] * v))
-                }),
-                steering_m: [
-                    [steering * (1.0 + half_s * dx[0]), steering * half_s * dy[0]],
-                    [steering * half_s * dx[1], steering * (1.0 + half_s * dy[1])],
-                ],
-            }
+            let through_water_m = seconds * self.voyage.vehicle.speed_m_s();
+            let spacing_m = [self.grid.spacing_east_m, self.grid.spacing_north_m];
+            let drift = [0, 1].map(|part| {
+                let mean_m_s = velocity[node][part] + half_s * (dx[part] * u + dy[part] * v);
+                (seconds * mean_m_s / spacing_m[part]) as f32
+            });
+            let steering = [
+                [1.0 + half_s * dx[0], half_s * dy[0]],
+                [half_s * dx[1], 1.0 + half_s * dy[1]],
+            ];
+            let scaled = |part: usize| {
+                steering[part].map(|factor| (through_water_m * factor / spacing_m[part]) as f32)
+            };
+            Motion { drift, steering: [scaled(0), scaled(1)] }
         };
         (0..self.grid.node_count()).map(motion).collect()
     }
@@ -167,21 +182,19 @@ impl BackwardSweep<'_> {
         row: usize,
         values: &mut [f32],
         later: &[f32],
-        lanes: usize,
         motions: &[Motion],
         land: &[bool],
+        directions: &[[f32; 2]],
     ) {
         let columns = self.grid.columns;
-        let directions: Vec<(f64, f64)> = (0..self.headings)
-            .map(|heading| libm::sincos(std::f64::consts::TAU * heading as f64 / self.headings as f64))
-            .collect();
+        let lanes = values.len() / columns;
         for (column, best) in values.chunks_exact_mut(lanes).enumerate() {
             best.fill(self.lost_h);
             let node = row * columns + column;
             if land.get(node) == Some(&true) {
                 continue;
             }
-            for &direction in &directions {
+            for &direction in directions {
                 if let Some(foot) = self.foot(column, row, &motions[node], direction, land) {
                     keep_better(best, later, foot, columns, self.step_h as f32);
                 }
@@ -189,27 +202,26 @@ impl BackwardSweep<'_> {
         }
     }
 
-    /// Where a step with the heading of this direction (east, north) ends, unless
-    /// it leaves the domain or runs aground.
+    /// Where a step in this direction (east, north) ends, unless it comes too near
+    /// the wall or runs aground.
+    #[inline]
     fn foot(
         &self,
         column: usize,
         row: usize,
         motion: &Motion,
-        (east, north): (f64, f64),
+        [east, north]: [f32; 2],
         land: &[bool],
     ) -> Option<Stencil> {
-        let [drift, steering] = [motion.drift_m, [0, 1].map(|part| {
-            motion.steering_m[part][0] * east + motion.steering_m[part][1] * north
-        })];
-        let dx = (drift[0] + steering[0]) / self.grid.spacing_east_m;
-        let dy = (drift[1] + steering[1]) / self.grid.spacing_north_m;
-        let (x, y) = (column as f64 + dx, row as f64 + dy);
-        if !self.grid.holds(x, y) {
+        let [[ee, en], [ne, nn]] = motion.steering;
+        let dx = motion.drift[0] + (ee * east + en * north);
+        let dy = motion.drift[1] + (ne * east + nn * north);
+        let (x, y) = (column as f32 + dx, row as f32 + dy);
+        if !self.grid.holds_clear_of_wall(x, y) {
             return None;
         }
         if !land.is_empty() {
-            let dry = |x: f64, y: f64| {
+            let dry = |x: f32, y: f32| {
                 land[(y + 0.5) as usize * self.grid.columns + (x + 0.5) as usize]
             };
             if dry(x, y) || dry(x - dx / 2.0, y - dy / 2.0) {
@@ -230,8 +242,11 @@ impl BackwardSweep<'_> {
     ) {
         for &Capture { column, goal } in captures {
             let value = &mut values[column * lanes + goal];
-            let drift_m = motions[row * self.grid.columns + column].drift_m;
-            let current_m_h = drift_m.map(|component| component / self.step_h);
+            let [east, north] = motions[row * self.grid.columns + column].drift.map(f64::from);
+            let current_m_h = [
+                east * self.grid.spacing_east_m / self.step_h,
+                north * self.grid.spacing_north_m / self.step_h,
+            ];
             let from = self.grid.node(column, row);
             let goal = self.voyage.goals[goal];
             if let Some(hours) = time_to_disc_h(self.voyage.vehicle, current_m_h, from, goal)

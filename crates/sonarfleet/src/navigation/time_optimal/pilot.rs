@@ -2,6 +2,7 @@
 
 use super::TimeOptimalPlan;
 use super::backward_sweep::time_to_disc_h;
+use super::value_function::WALL_CLEARANCE_M;
 use crate::grid::Position;
 use crate::navigation::sail::{advance, bearing_rad};
 use crate::navigation::vehicle::SECONDS_PER_HOUR;
@@ -11,6 +12,9 @@ use std::f64::consts::TAU;
 /// Steps of the golden-section search between two of the plan's headings: 10 divide
 /// the interval by 120.
 const REFINEMENTS: usize = 10;
+
+/// Ranks headings that come too near the wall.
+const METRES_PER_LOST_HOUR: f64 = 1000.0;
 
 /// Where to head, and how long the way is from there.
 pub(super) struct Steering {
@@ -71,6 +75,11 @@ impl TimeOptimalPlan<'_> {
         let voyage = &self.voyage;
         let step_h = self.value_function.step_h;
         let foot = advance(voyage.currents(), voyage.vehicle, from, time_h, heading_rad, step_h);
+        let beyond_m = voyage.waters.domain.beyond_m(foot, WALL_CLEARANCE_M);
+        if beyond_m > 0.0 {
+            // Lost, but the less the better: near the wall this leads back.
+            return self.lost_h + beyond_m / METRES_PER_LOST_HOUR;
+        }
         match self.value_function.grid.coordinates(foot) {
             Some((x, y)) if !voyage.currents().is_land(foot) => {
                 (step_h + self.value_function.at(goal, x, y, time_h + step_h)).min(self.lost_h)

@@ -6,6 +6,10 @@ use crate::navigation::TransitDomain;
 /// Goals are stored in groups of this many, so that loops over them vectorise.
 const LANE_GROUP: usize = 8;
 
+/// Plans keep this far inside the wall, so that what a step of the plan neglects
+/// (a few metres) takes no vehicle across it.
+pub(super) const WALL_CLEARANCE_M: f64 = 100.0;
+
 /// Equally spaced nodes over a domain, edges included.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NodeGrid {
@@ -14,6 +18,8 @@ pub(super) struct NodeGrid {
     pub(super) spacing_north_m: f64,
     pub(super) columns: usize,
     pub(super) rows: usize,
+    /// [`WALL_CLEARANCE_M`] counted in nodes, east and north.
+    clearance: [f32; 2],
 }
 
 impl NodeGrid {
@@ -21,10 +27,14 @@ impl NodeGrid {
     pub(super) fn over(domain: TransitDomain, spacing_m: f64) -> Self {
         let cells = |extent_m: f64| (extent_m / spacing_m - 1e-9).ceil().max(1.0);
         let (columns, rows) = (cells(domain.width_m()), cells(domain.height_m()));
+        let spacing_east_m = domain.width_m() / columns;
+        let spacing_north_m = domain.height_m() / rows;
         Self {
             origin: domain.south_west(),
-            spacing_east_m: domain.width_m() / columns,
-            spacing_north_m: domain.height_m() / rows,
+            spacing_east_m,
+            spacing_north_m,
+            clearance: [spacing_east_m, spacing_north_m]
+                .map(|spacing_m| (WALL_CLEARANCE_M / spacing_m) as f32),
             columns: columns as usize + 1,
             rows: rows as usize + 1,
         }
@@ -55,13 +65,25 @@ impl NodeGrid {
         inside(x, self.columns) && inside(y, self.rows)
     }
 
+    /// As [`NodeGrid::holds`], but [`WALL_CLEARANCE_M`] inside the wall.
+    #[inline]
+    pub(super) fn holds_clear_of_wall(&self, x: f32, y: f32) -> bool {
+        let [east, north] = self.clearance;
+        x >= east
+            && x <= (self.columns - 1) as f32 - east
+            && y >= north
+            && y <= (self.rows - 1) as f32 - north
+    }
+
     /// The cell that holds a point of the grid and the bilinear weights of its
     /// corners: south-west, south-east, north-west, north-east.
-    pub(super) fn stencil(&self, x: f64, y: f64) -> Stencil {
-        let column = (x as usize).min(self.columns - 2);
-        let row = (y as usize).min(self.rows - 2);
-        let right = (x - column as f64) as f32;
-        let up = (y - row as f64) as f32;
+    #[inline]
+    pub(super) fn stencil(&self, x: f32, y: f32) -> Stencil {
+        // Through i32, to which floats convert fastest.
+        let column = (x as i32 as usize).min(self.columns - 2);
+        let row = (y as i32 as usize).min(self.rows - 2);
+        let right = x - column as f32;
+        let up = y - row as f32;
         let weights = [
             (1.0 - right) * (1.0 - up),
             right * (1.0 - up),
@@ -108,7 +130,7 @@ impl ValueFunction {
     /// Hours to go from a point of the grid, coordinates counted in nodes, at a
     /// time: bilinear in space, linear in time, clamped to the layers.
     pub(super) fn at(&self, goal: usize, x: f64, y: f64, time_h: f64) -> f64 {
-        let stencil = self.grid.stencil(x, y);
+        let stencil = self.grid.stencil(x as f32, y as f32);
         let since = ((time_h - self.departure_h) / self.step_h).clamp(0.0, self.steps as f64);
         // Layers of whole steps are hit exactly, in spite of rounding.
         let below = ((since + 1e-9) as usize).min(self.steps);
