@@ -29,9 +29,10 @@ impl Progress {
         }
         self.bar.set_position(done as u64);
     }
+}
 
-    /// Removes the bar.
-    pub(crate) fn finish(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }

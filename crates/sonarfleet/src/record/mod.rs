@@ -1,6 +1,20 @@
 //! What a run writes down: plain data, one [`EpochRecord`] per epoch, from which
 //! every figure and the report are drawn.
 
+mod checkpoint;
+mod directory;
+mod epoch_file;
+mod error;
+mod provenance;
+mod write;
+
+pub use checkpoint::Checkpoint;
+pub use directory::RunDirectory;
+pub use epoch_file::{FORMAT, write_epoch};
+pub use error::RecordError;
+pub use provenance::{InputFile, Provenance};
+pub use write::write_run;
+
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +86,8 @@ pub struct EpochRecord {
     pub routes: Vec<RouteRecord>,
     /// The numbers of the epoch.
     pub metrics: EpochMetrics,
+    /// Wall-clock seconds by stage, in order.
+    pub seconds: Vec<(String, f64)>,
 }
 
 /// Sound speed over the region on a regular grid of points.
@@ -162,13 +178,11 @@ pub struct EpochMetrics {
     pub evaluations: u64,
     /// Best feasible `J_d` against evaluations.
     pub placement_history: Vec<(u64, f64)>,
-    /// Wall-clock seconds by stage, in order.
-    pub seconds: Vec<(String, f64)>,
 }
 
 /// How the transmission-loss table of an epoch was made, and how far it is from
 /// `fine` settings on a sample of sources.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LossTableMetrics {
     /// Beams per slice.
     pub beams: usize,

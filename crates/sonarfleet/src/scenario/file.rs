@@ -4,7 +4,8 @@
 use crate::sonar::prior::LineCorridor;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use super::ScenarioError;
+use std::path::{Path, PathBuf};
 
 /// A scenario as written in TOML.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,6 +41,29 @@ pub struct ScenarioFile {
     pub navigation: NavigationSection,
     /// Assignment of vehicles to posts.
     pub assignment: AssignmentSection,
+}
+
+impl ScenarioFile {
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is not TOML, or has unknown keys.
+    pub fn read(path: &Path) -> Result<Self, ScenarioError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| ScenarioError::Read { path: path.to_owned(), source })?;
+        Self::parse(&text, &path.display().to_string())
+    }
+
+    /// Parses a scenario's text; `origin` names it in errors.
+    ///
+    /// # Errors
+    /// If it is not TOML, or has unknown keys.
+    pub fn parse(text: &str, origin: &str) -> Result<Self, ScenarioError> {
+        toml::from_str(text).map_err(|error| ScenarioError::Parse {
+            origin: origin.to_owned(),
+            message: error.to_string(),
+        })
+    }
 }
 
 impl Default for ScenarioFile {

@@ -37,6 +37,8 @@ pub const EMBEDDED: &str = include_str!("embedded.toml");
 pub struct Scenario {
     /// What was typed, every default filled in.
     pub file: ScenarioFile,
+    /// What the paths in it are relative to.
+    pub home: PathBuf,
     /// The region's local frame.
     pub frame: LocalFrame,
     /// The surveillance grid in that frame.
@@ -152,7 +154,9 @@ impl Scenario {
     /// # Panics
     /// Never: the embedded text is valid, which a test asserts.
     pub fn embedded() -> Self {
-        Self::parse(EMBEDDED, "embedded scenario", Path::new(""))
+        let origin = "embedded scenario";
+        ScenarioFile::parse(EMBEDDED, origin)
+            .and_then(|file| Self::check(file, origin, Path::new("")))
             .expect("the embedded scenario is valid")
     }
 
@@ -161,23 +165,51 @@ impl Scenario {
     /// # Errors
     /// If the file cannot be read, is not TOML, has unknown keys or impossible values.
     pub fn read(path: &Path) -> Result<Self, ScenarioError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| ScenarioError::Read { path: path.to_owned(), source })?;
         let home = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&text, &path.display().to_string(), home)
+        Self::check(ScenarioFile::read(path)?, &path.display().to_string(), home)
     }
 
-    /// Checks a scenario's text. `origin` names it in errors, `home` is the directory
-    /// that its paths are relative to.
+    /// Checks a scenario. `origin` names it in errors, `home` is the directory that its
+    /// paths are relative to.
     ///
     /// # Errors
-    /// As for [`Scenario::read`].
-    pub fn parse(text: &str, origin: &str, home: &Path) -> Result<Self, ScenarioError> {
-        let file: ScenarioFile = toml::from_str(text).map_err(|error| ScenarioError::Parse {
-            origin: origin.to_owned(),
-            message: error.to_string(),
-        })?;
+    /// If a value is impossible or a file it names is not there.
+    pub fn check(file: ScenarioFile, origin: &str, home: &Path) -> Result<Self, ScenarioError> {
         check::check(file, origin, home)
+    }
+
+    /// Seed of the random choices of one epoch.
+    pub const fn seed_of(&self, epoch: usize) -> u64 {
+        self.file.seed.wrapping_add(epoch as u64)
+    }
+
+    /// The scenario with every default filled in and every path resolved, TOML.
+    pub fn resolved(&self) -> String {
+        let mut file = self.file.clone();
+        let here = |path: &mut PathBuf| *path = self.home.join(&*path);
+        file.ocean.files.iter_mut().for_each(here);
+        file.ocean.bathymetry.iter_mut().for_each(here);
+        file.deployable.exclusions.iter_mut().for_each(here);
+        file.transmission_loss.files.iter_mut().for_each(here);
+        for prior in &mut file.prior {
+            if let PriorSection::File { path } = prior {
+                here(path);
+            }
+        }
+        toml::to_string(&file).expect("what was read from TOML can be written as TOML")
+    }
+
+    /// Every file that a run of the scenario reads.
+    pub fn input_files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> = self.file.transmission_loss.files.clone();
+        files.extend(self.file.ocean.files.iter().cloned());
+        files.extend(self.file.ocean.bathymetry.iter().cloned());
+        files.extend(self.file.deployable.exclusions.iter().cloned());
+        files.extend(self.file.prior.iter().filter_map(|prior| match prior {
+            PriorSection::File { path } => Some(path.clone()),
+            _ => None,
+        }));
+        files.iter().map(|path| self.home.join(path)).collect()
     }
 
     /// The region.

@@ -55,6 +55,7 @@ pub(super) fn check(
         method: planning::method(&checker, &file.placement)?,
         planner: planning::planner(&checker, &file.navigation)?,
         objective: planning::objective(&checker, &file.assignment)?,
+        home: home.to_owned(),
         domain,
         frame,
         grid,
