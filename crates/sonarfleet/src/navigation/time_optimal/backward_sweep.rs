@@ -1,12 +1,12 @@
 //! The semi-Lagrangian solution of the Hamilton–Jacobi equation, backward in time,
 //! for all goals at once.
 
+use super::feet::{Feet, Motion};
 use super::value_function::{NodeGrid, Stencil, ValueFunction};
 use crate::grid::Position;
 use crate::navigation::vehicle::SECONDS_PER_HOUR;
 use crate::navigation::{Vehicle, Voyage};
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 
 /// What to solve for, and how finely.
 pub(super) struct BackwardSweep<'a> {
@@ -17,16 +17,6 @@ pub(super) struct BackwardSweep<'a> {
     pub(super) headings: usize,
     /// Value of having lost the vehicle, hours.
     pub(super) lost_h: f32,
-}
-
-/// How a vehicle moves in one step from a node: x + drift + steering · e(ψ), counted
-/// in nodes. The current is taken along the way: u + ∇u · (u + V e(ψ)) Δt/2, the
-/// midpoint rule with the field linearised about the node.
-#[derive(Clone, Copy)]
-struct Motion {
-    drift: [f32; 2],
-    /// Rows: east and north; columns: parts of e(ψ).
-    steering: [[f32; 2]; 2],
 }
 
 /// A goal near enough to a node to be reached within one step.
@@ -49,7 +39,7 @@ impl BackwardSweep<'_> {
         let lanes = ValueFunction::lanes_for(self.voyage.goals.len());
         let land = self.land();
         let captures = self.captures();
-        let directions = self.directions();
+        let directions = Feet::new(self.headings);
         let mut hours = vec![0.0; (self.steps + 1) * nodes * lanes];
         self.set_horizon(&mut hours[self.steps * nodes * lanes..], lanes, &land);
 
@@ -60,8 +50,8 @@ impl BackwardSweep<'_> {
             earlier[step * nodes * lanes..]
                 .par_chunks_mut(self.grid.columns * lanes)
                 .enumerate()
-                .for_each(|(row, values)| {
-                    self.relax_row(row, values, later, &motions, &land, &directions);
+                .for_each_init(|| directions.clone(), |feet, (row, values)| {
+                    self.relax_row(row, values, later, &motions, &land, feet);
                     self.capture(row, values, lanes, &motions, &captures[row]);
                 });
         }
@@ -73,15 +63,6 @@ impl BackwardSweep<'_> {
             lanes,
             hours,
         }
-    }
-
-    /// The headings' directions, [east, north].
-    fn directions(&self) -> Vec<[f32; 2]> {
-        let direction = |heading: usize| {
-            let (east, north) = (TAU * heading as f64 / self.headings as f64).sin_cos();
-            [east as f32, north as f32]
-        };
-        (0..self.headings).map(direction).collect()
     }
 
     /// Which nodes are land; empty where all is water.
@@ -184,51 +165,27 @@ impl BackwardSweep<'_> {
         later: &[f32],
         motions: &[Motion],
         land: &[bool],
-        directions: &[[f32; 2]],
+        feet: &mut Feet,
     ) {
         let columns = self.grid.columns;
         let lanes = values.len() / columns;
+        let step_h = self.step_h as f32;
         for (column, best) in values.chunks_exact_mut(lanes).enumerate() {
-            best.fill(self.lost_h);
+            best.fill(self.lost_h - step_h);
             let node = row * columns + column;
-            if land.get(node) == Some(&true) {
-                continue;
-            }
-            for &direction in directions {
-                if let Some(foot) = self.foot(column, row, &motions[node], direction, land) {
-                    keep_better(best, later, foot, columns, self.step_h as f32);
+            if land.get(node) != Some(&true) {
+                let mut pairs = feet.of(&self.grid, column, row, &motions[node], land).chunks_exact(2);
+                for pair in &mut pairs {
+                    keep_better(best, later, [pair[0], pair[1]], columns);
+                }
+                if let [odd] = *pairs.remainder() {
+                    keep_better(best, later, [odd, odd], columns);
                 }
             }
-        }
-    }
-
-    /// Where a step in this direction (east, north) ends, unless it comes too near
-    /// the wall or runs aground.
-    #[inline]
-    fn foot(
-        &self,
-        column: usize,
-        row: usize,
-        motion: &Motion,
-        [east, north]: [f32; 2],
-        land: &[bool],
-    ) -> Option<Stencil> {
-        let [[ee, en], [ne, nn]] = motion.steering;
-        let dx = motion.drift[0] + (ee * east + en * north);
-        let dy = motion.drift[1] + (ne * east + nn * north);
-        let (x, y) = (column as f32 + dx, row as f32 + dy);
-        if !self.grid.holds_clear_of_wall(x, y) {
-            return None;
-        }
-        if !land.is_empty() {
-            let dry = |x: f32, y: f32| {
-                land[(y + 0.5) as usize * self.grid.columns + (x + 0.5) as usize]
-            };
-            if dry(x, y) || dry(x - dx / 2.0, y - dy / 2.0) {
-                return None;
+            for hours in best {
+                *hours += step_h;
             }
         }
-        Some(self.grid.stencil(x, y))
     }
 
     /// Exact times from the nodes of one row to goals within one step.
@@ -259,20 +216,24 @@ impl BackwardSweep<'_> {
     }
 }
 
-/// best ← min(best, Δt + Σ w · later), for all goals.
-fn keep_better(best: &mut [f32], later: &[f32], foot: Stencil, columns: usize, step_h: f32) {
+/// best ← min(best, Σ w · later) over two feet, for all goals.
+#[inline]
+fn keep_better(best: &mut [f32], later: &[f32], feet: [Stencil; 2], columns: usize) {
     let lanes = best.len();
-    let corner = |node: usize| &later[node * lanes..][..lanes];
-    let south_west = corner(foot.node);
-    let south_east = corner(foot.node + 1);
-    let north_west = corner(foot.node + columns);
-    let north_east = corner(foot.node + columns + 1);
-    let [w0, w1, w2, w3] = foot.weights;
+    let corners = |foot: Stencil| {
+        let row = |node: usize| later[node * lanes..][..2 * lanes].split_at(lanes);
+        [row(foot.node), row(foot.node + columns)]
+    };
+    let [one, two] = feet.map(corners);
+    let ((a0, a1), (a2, a3)) = (one[0], one[1]);
+    let ((b0, b1), (b2, b3)) = (two[0], two[1]);
+    let [v0, v1, v2, v3] = feet[0].weights;
+    let [w0, w1, w2, w3] = feet[1].weights;
     for lane in 0..lanes {
-        let south = w0 * south_west[lane] + w1 * south_east[lane];
-        let north = w2 * north_west[lane] + w3 * north_east[lane];
-        let hours = step_h + (south + north);
-        best[lane] = if hours < best[lane] { hours } else { best[lane] };
+        let a = (v0 * a0[lane] + v1 * a1[lane]) + (v2 * a2[lane] + v3 * a3[lane]);
+        let b = (w0 * b0[lane] + w1 * b1[lane]) + (w2 * b2[lane] + w3 * b3[lane]);
+        let better = if a < b { a } else { b };
+        best[lane] = if better < best[lane] { better } else { best[lane] };
     }
 }
 

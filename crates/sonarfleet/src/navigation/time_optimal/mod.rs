@@ -5,6 +5,7 @@
 //! headings are read off it.
 
 mod backward_sweep;
+mod feet;
 mod pilot;
 mod value_function;
 

@@ -18,8 +18,6 @@ pub(super) struct NodeGrid {
     pub(super) spacing_north_m: f64,
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// [`WALL_CLEARANCE_M`] counted in nodes, east and north.
-    clearance: [f32; 2],
 }
 
 impl NodeGrid {
@@ -33,8 +31,6 @@ impl NodeGrid {
             origin: domain.south_west(),
             spacing_east_m,
             spacing_north_m,
-            clearance: [spacing_east_m, spacing_north_m]
-                .map(|spacing_m| (WALL_CLEARANCE_M / spacing_m) as f32),
             columns: columns as usize + 1,
             rows: rows as usize + 1,
         }
@@ -65,33 +61,45 @@ impl NodeGrid {
         inside(x, self.columns) && inside(y, self.rows)
     }
 
-    /// As [`NodeGrid::holds`], but [`WALL_CLEARANCE_M`] inside the wall.
-    #[inline]
-    pub(super) fn holds_clear_of_wall(&self, x: f32, y: f32) -> bool {
-        let [east, north] = self.clearance;
-        x >= east
-            && x <= (self.columns - 1) as f32 - east
-            && y >= north
-            && y <= (self.rows - 1) as f32 - north
+    /// The part of the grid that lies [`WALL_CLEARANCE_M`] inside the wall.
+    pub(super) fn clear_of_wall(&self) -> ClearWater {
+        let east_nodes = (WALL_CLEARANCE_M / self.spacing_east_m) as f32;
+        let north_nodes = (WALL_CLEARANCE_M / self.spacing_north_m) as f32;
+        ClearWater {
+            west: east_nodes,
+            east: (self.columns - 1) as f32 - east_nodes,
+            south: north_nodes,
+            north: (self.rows - 1) as f32 - north_nodes,
+        }
     }
 
     /// The cell that holds a point of the grid and the bilinear weights of its
     /// corners: south-west, south-east, north-west, north-east.
     #[inline]
     pub(super) fn stencil(&self, x: f32, y: f32) -> Stencil {
-        // Through i32, to which floats convert fastest.
-        let column = (x as i32 as usize).min(self.columns - 2);
-        let row = (y as i32 as usize).min(self.rows - 2);
+        // Through i32, to and from which floats convert fastest.
+        let column = (x as i32).min(self.columns as i32 - 2);
+        let row = (y as i32).min(self.rows as i32 - 2);
         let right = x - column as f32;
         let up = y - row as f32;
-        let weights = [
-            (1.0 - right) * (1.0 - up),
-            right * (1.0 - up),
-            (1.0 - right) * up,
-            right * up,
-        ];
-        Stencil { node: row * self.columns + column, weights }
+        let north_east = right * up;
+        let south_east = right - north_east;
+        let north_west = up - north_east;
+        let south_west = 1.0 - right - north_west;
+        Stencil {
+            node: row as usize * self.columns + column as usize,
+            weights: [south_west, south_east, north_west, north_east],
+        }
     }
+}
+
+/// Bounds counted in nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ClearWater {
+    pub(super) west: f32,
+    pub(super) east: f32,
+    pub(super) south: f32,
+    pub(super) north: f32,
 }
 
 /// Four nodes of a cell and their weights.
