@@ -57,9 +57,9 @@ mod tests {
 
     #[test]
     fn a_coordinate_at_rest_never_leaves() {
-        assert_eq!(exit(0.0, 0.0, 1.0, 1.0).sigma, f64::INFINITY);
-        assert_eq!(contact(0.0, 0.0, 1.0), f64::INFINITY);
-        assert_eq!(contact(-1.0, 0.0, 0.0), f64::INFINITY);
+        assert!(exit(0.0, 0.0, 1.0, 1.0).sigma.is_infinite());
+        assert!(contact(0.0, 0.0, 1.0).is_infinite());
+        assert!(contact(-1.0, 0.0, 0.0).is_infinite());
     }
 
     proptest! {

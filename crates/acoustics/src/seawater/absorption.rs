@@ -79,7 +79,7 @@ pub fn francois_garrison_db_km(
 mod tests {
     use super::*;
 
-    /// Ainslie & McColm's simplification (1998, doi:10.1121/1.421258), which its
+    /// The simplification of Ainslie & `McColm` (1998, doi:10.1121/1.421258), which its
     /// authors give as within 10 % of Francois & Garrison in the ocean.
     fn ainslie_mccolm_db_km(f: f64, t: f64, s: f64, ph: f64, z_km: f64) -> f64 {
         let f1 = 0.78 * (s / 35.0).sqrt() * (t / 26.0).exp();

@@ -147,7 +147,7 @@ fn rays_are_parabolas_where_the_squared_index_is_linear() {
         let mut range = 0.0;
         while range < 2000.0 {
             let exact = source_depth + range * sine / cosine + curvature * range * range;
-            if exact < 5.0 || exact > 2795.0 {
+            if !(5.0..=2795.0).contains(&exact) {
                 break;
             }
             // Chords of the recorded path stay within 0.1 m.

@@ -29,7 +29,7 @@ fn slope(floor: Vec<(f64, f64)>, columns: Vec<(f64, [f64; 3])>) -> Section {
 fn a_level_inserted_in_a_profile_changes_nothing() {
     let coarse = vec![0.0, 1000.0];
     let speeds = [1540.0, 1490.0f64];
-    let middle = ((speeds[0].powi(-2) + speeds[1].powi(-2)) / 2.0).powf(-0.5);
+    let middle = f64::midpoint(speeds[0].powi(-2), speeds[1].powi(-2)).powf(-0.5);
     let field = |depth: Vec<f64>, speed: Vec<f64>| {
         let law = ProfileLaw::LinearSquaredIndex;
         let field = SoundSpeedField::new(vec![0.0], depth, speed, law).unwrap();
