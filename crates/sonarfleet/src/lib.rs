@@ -20,3 +20,6 @@ pub mod random;
 pub mod record;
 pub mod scenario;
 pub mod sonar;
+
+/// Version of the names and meanings in the files we write (`sonarfleet_format`).
+pub const FILE_FORMAT: f64 = 1.0;

@@ -5,7 +5,7 @@ use super::{Environment, Mission, excerpts};
 use crate::assignment::Assignment;
 use crate::grid::{CellId, Position};
 use crate::navigation::{Route, TravelTimes};
-use crate::placement::random::Random;
+use crate::placement::random::RandomSearch;
 use crate::placement::{Budget, Placement, Solver};
 use crate::record::{EpochMetrics, EpochRecord, RouteRecord, RunRecord, TrackPoint};
 
@@ -40,7 +40,7 @@ impl Mission<'_> {
         let (scenario, theatre) = (self.scenario, self.theatre);
         let problem = &environment.problem;
         let plan = &scenario.epochs[epoch];
-        let random = Random.solve(problem, Budget::Evaluations(1), scenario.seed_of(epoch));
+        let random = RandomSearch.solve(problem, Budget::Evaluations(1), scenario.seed_of(epoch));
         let at_start = problem.evaluate(&self.cells_of(start));
         let at_end = problem.evaluate(&self.cells_of(end));
         let Outcome { placement, travel, posts, movement } = &outcome;

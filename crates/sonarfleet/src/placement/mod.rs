@@ -3,6 +3,7 @@
 
 mod error;
 mod evaluation;
+mod method;
 
 pub mod annealing;
 pub mod bound;
@@ -18,5 +19,6 @@ pub mod solver;
 
 pub use error::PlacementError;
 pub use evaluation::Evaluation;
+pub use method::{Method, UnknownMethod};
 pub use problem::{PlacementInput, PlacementProblem};
 pub use solver::{Budget, Placement, Solver};

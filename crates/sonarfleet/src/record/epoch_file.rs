@@ -5,9 +5,6 @@ use crate::grid::CellId;
 use sonarfleet_ocean::io::{Attribute, Dataset, Values};
 use std::path::Path;
 
-/// Version of the names and meanings in our NetCDF files.
-pub const FORMAT: f64 = 1.0;
-
 /// Writes one epoch of a run.
 ///
 /// # Errors
@@ -29,7 +26,7 @@ fn attributes(file: &mut Dataset, run: &RunRecord, epoch: &EpochRecord) {
     }
     file.add_attribute(Attribute::text("history", format!("sonarfleet {}", run.version)));
     for (name, value) in [
-        ("sonarfleet_format", FORMAT),
+        ("sonarfleet_format", crate::FILE_FORMAT),
         ("seed", run.seed as f64),
         ("start_h", epoch.start_h),
         ("duration_h", epoch.duration_h),

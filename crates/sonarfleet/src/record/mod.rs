@@ -10,7 +10,7 @@ mod write;
 
 pub use checkpoint::Checkpoint;
 pub use directory::RunDirectory;
-pub use epoch_file::{FORMAT, write_epoch};
+pub use epoch_file::write_epoch;
 pub use error::RecordError;
 pub use provenance::{InputFile, Provenance};
 pub use write::write_run;

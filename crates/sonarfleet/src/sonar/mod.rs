@@ -9,6 +9,7 @@ pub mod curve;
 pub mod detection;
 pub mod gaussian;
 pub mod link;
+pub mod loss_file;
 pub mod noise;
 pub mod objective;
 pub mod prior;
