@@ -13,6 +13,7 @@ mod bathymetry;
 mod error;
 mod forecast;
 mod grid;
+pub mod io;
 mod local_frame;
 pub mod potential_temperature;
 mod region;

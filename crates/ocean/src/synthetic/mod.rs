@@ -74,8 +74,8 @@ impl SyntheticOcean {
     pub fn forecast(&self) -> Forecast {
         let area = self.region.grown(self.margin_deg);
         let grid = Arc::new(OceanGrid {
-            longitude_deg: nodes(area.west_deg, area.east_deg, NODES_PER_DEGREE, 0.0),
-            latitude_deg: nodes(area.south_deg, area.north_deg, NODES_PER_DEGREE, 0.0),
+            longitude_deg: single(nodes(area.west_deg, area.east_deg, NODES_PER_DEGREE, 0.0)),
+            latitude_deg: single(nodes(area.south_deg, area.north_deg, NODES_PER_DEGREE, 0.0)),
             depth_m: LEVELS_M.iter().map(|&level| f64::from(level)).collect(),
         });
         let step = SignedDuration::from_hours(self.interval_h);
@@ -108,11 +108,16 @@ fn plane_m(longitude_deg: f64, latitude_deg: f64) -> (f64, f64) {
 }
 
 /// Nodes at `(i + offset) / per_degree` from the last one not above `from` to the first
-/// one not below `to`, rounded to `f32` as files hold them.
+/// one not below `to`.
 fn nodes(from: f64, to: f64, per_degree: f64, offset: f64) -> Vec<f64> {
     let first = (from * per_degree - offset).floor() as i64;
     let last = (to * per_degree - offset).ceil() as i64;
-    (first..=last).map(|i| f64::from(((i as f64 + offset) / per_degree) as f32)).collect()
+    (first..=last).map(|i| (i as f64 + offset) / per_degree).collect()
+}
+
+/// Coordinates as ocean files hold them, in single precision.
+fn single(nodes: Vec<f64>) -> Vec<f64> {
+    nodes.into_iter().map(|node| f64::from(node as f32)).collect()
 }
 
 /// The ocean on the nodes of a grid at a time. Temperatures are rounded so that a file
