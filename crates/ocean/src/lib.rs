@@ -7,6 +7,24 @@
 //!
 //! This crate knows files and the sea; it knows nothing of sound, vehicles or learning.
 //! The names that files use (`thetao`, `water_u`, …) appear only in [`io`].
+//!
+//! ```
+//! use jiff::SignedDuration;
+//! use sonarfleet_ocean::LocalFrame;
+//! use sonarfleet_ocean::synthetic::{REGION, START, SyntheticOcean};
+//!
+//! let ocean = SyntheticOcean { states: 2, ..SyntheticOcean::default() };
+//! let (forecast, bathymetry) = (ocean.forecast(), ocean.bathymetry());
+//! let state = forecast.at(START + SignedDuration::from_hours(3))?;
+//! let frame = LocalFrame::new(REGION);
+//! let (longitude_deg, latitude_deg) = frame.to_geographic(10_000.0, 5_000.0);
+//! let column = state.column(longitude_deg, latitude_deg).expect("open sea");
+//! assert!((column.temperature_c[0] - 28.7).abs() < 0.2);
+//! let [east_m_s, north_m_s] = state.current(longitude_deg, latitude_deg, 200.0).expect("open sea");
+//! assert!(east_m_s.hypot(north_m_s) < 0.35);
+//! assert!(bathymetry.depth_m(longitude_deg, latitude_deg).expect("inside the data") > 800.0);
+//! # Ok::<(), sonarfleet_ocean::OceanError>(())
+//! ```
 
 mod axis;
 mod bathymetry;

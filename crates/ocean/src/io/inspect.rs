@@ -8,7 +8,11 @@ use super::{NetcdfFile, time};
 use crate::OceanError;
 use jiff::Timestamp;
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+
+/// Values read at a time, so that global files fit into memory.
+const LARGEST_BLOCK: usize = 1 << 23;
 
 /// What a file holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,8 +77,7 @@ pub struct VariableInspection {
     pub missing_fraction: f64,
 }
 
-/// Says what a NetCDF file holds. All values are read, one index of the first dimension
-/// at a time.
+/// Says what a NetCDF file holds. All values are read, a block at a time.
 ///
 /// # Errors
 /// The file is missing, not NetCDF or damaged, or has an axis that is not monotonic or
@@ -157,10 +160,12 @@ fn inspect_variable(
     let (mut missing, mut count) = (0_usize, 0_usize);
     let everything = variable.everything();
     let outer = everything.first().cloned().unwrap_or(0..1);
-    for index in outer {
+    let inner: usize = everything.iter().skip(1).map(Range::len).product();
+    let block = (LARGEST_BLOCK / inner.max(1)).max(1);
+    for start in outer.clone().step_by(block) {
         let mut selection = everything.clone();
         if let Some(first) = selection.first_mut() {
-            *first = index..index + 1;
+            *first = start..(start + block).min(outer.end);
         }
         for value in read_decoded(file, variable, &selection)? {
             count += 1;

@@ -10,8 +10,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Largest part of a variable read at once, in bytes, so that a damaged header cannot
-/// ask for all memory: a global 1/12° level set of one time step fits.
-const LARGEST_READ: usize = 4 << 30;
+/// ask for all memory; all levels of a global 1/12° field at one time fit.
+const LARGEST_READ: usize = 1 << 31;
 
 /// An open NetCDF file.
 pub struct NetcdfFile {

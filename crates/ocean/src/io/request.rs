@@ -28,8 +28,9 @@ const DATASETS: [(&str, &[&str], &str); 3] = [
 /// just beyond the box, so the commands say `outside`.
 pub fn download_request(region: Region, start: Timestamp, end: Timestamp, depth_m: f64) -> String {
     let area = region.grown(PADDING_NODES * SPACING_DEG);
-    let wrapped = |longitude: f64| (longitude + 180.0).rem_euclid(360.0) - 180.0;
-    let (west, east) = (wrapped(area.west_deg), wrapped(area.east_deg));
+    // Beyond 180 where the region crosses the antimeridian, as the tool wants it.
+    let west = (area.west_deg + 180.0).rem_euclid(360.0) - 180.0;
+    let east = west + area.width_deg();
     let (from, to) = (floor_to_state(start), ceil_to_state(end));
     let time = |time: Timestamp| time.strftime("%Y-%m-%dT%H:%M:%S").to_string();
     let mut text = String::new();
@@ -54,12 +55,12 @@ pub fn download_request(region: Region, start: Timestamp, end: Timestamp, depth_
         line(format_args!("  --minimum-depth 0 --maximum-depth {:.0} \\", depth_m.ceil()));
         line(format_args!("  --coordinates-selection-method outside --output-filename {file}"));
     }
-    if west > east {
-        line(format_args!(
-            "# The region crosses 180°: if the tool refuses, add 360 to the maximum longitude."
-        ));
-    }
-    line(format_args!("# Daily means instead: PT6H-i becomes P1D-m in the dataset ids."));
+    line(format_args!(
+        "# Daily means instead: PT6H-i becomes P1D-m in the dataset ids. Years before the"
+    ));
+    line(format_args!(
+        "# forecast's archive: cmems_mod_glo_phy_my_0.083deg_P1D-m (GLORYS12), all variables."
+    ));
     line(format_args!(""));
     line(format_args!("# Bathymetry: GEBCO grid (public domain), https://download.gebco.net"));
     line(format_args!(

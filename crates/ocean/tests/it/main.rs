@@ -3,6 +3,7 @@
 mod damage;
 mod dialects;
 mod errors;
+mod properties;
 mod round_trip;
 
 use std::path::PathBuf;
