@@ -3,6 +3,8 @@
 use crate::assignment::AssignmentError;
 use crate::navigation::NavigationError;
 use crate::placement::PlacementError;
+use crate::sonar::loss_file::LossFileError;
+use crate::sonar::section::WatersError;
 use crate::sonar::transmission_loss::TransmissionLossError;
 use sonarfleet_ocean::OceanError;
 use std::path::PathBuf;
@@ -54,11 +56,9 @@ pub enum MissionError {
         span: String,
     },
     /// A transmission-loss file does not fit the scenario.
-    #[error("{}: {reason}", path.display())]
-    LossFile {
-        /// The file.
-        path: PathBuf,
-        /// What was found and what was expected.
-        reason: String,
-    },
+    #[error(transparent)]
+    LossFile(#[from] LossFileError),
+    /// There is no water to send sound through.
+    #[error(transparent)]
+    Waters(#[from] WatersError),
 }

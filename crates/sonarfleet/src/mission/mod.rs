@@ -4,21 +4,24 @@
 mod environment;
 mod error;
 mod excerpts;
+mod findings;
 mod outcome;
 mod stage;
 mod theatre;
 
-pub use environment::Environment;
+pub use environment::{Acoustics, Environment, input};
 pub use error::MissionError;
+pub use findings::findings;
 pub use stage::{Event, Observer, Stage};
 pub use theatre::Theatre;
 
-use crate::assignment::{Assignment, CostMatrix, assign};
-use crate::grid::{CellId, Position};
+use crate::assignment::{CostMatrix, assign};
+use crate::grid::Position;
 use crate::navigation::{Plan, Planner, Route, RouteEnd, TravelTimes, Waters};
 use crate::placement::{Budget, Placement, Solver};
-use crate::record::{EpochMetrics, EpochRecord, RouteRecord, RunRecord, TrackPoint};
+use crate::record::EpochRecord;
 use crate::scenario::Scenario;
+use outcome::{Movement, Outcome};
 use stage::Clock;
 
 /// A scenario in its theatre, with the methods that place and steer the fleet.
@@ -31,14 +34,6 @@ pub struct Mission<'a> {
     pub solver: &'a dyn Solver,
     /// How travel is planned.
     pub planner: &'a dyn Planner,
-}
-
-/// Vehicles on their way during one epoch.
-struct Movement {
-    /// Travelled within the epoch.
-    travelled: Vec<Route>,
-    /// Still to go, for those under way at the end of it.
-    remaining: Vec<Option<Route>>,
 }
 
 impl Mission<'_> {
@@ -54,15 +49,15 @@ impl Mission<'_> {
         fleet: &[Position],
         observer: &Observer<'_>,
     ) -> Result<(EpochRecord, Vec<Position>), MissionError> {
-        let clock = &mut Clock::new(epoch, observer);
-        let environment = self.update_environment(epoch, clock)?; // step 1
-        let placement = self.place(epoch, &environment, clock); // step 2
-        let (plan, travel) = self.plan_travel(epoch, &placement, fleet, clock)?; // step 3
-        let assignment = self.assign(&travel, clock)?; // step 4
-        let movement = self.execute(epoch, plan.as_ref(), &assignment, fleet, clock); // step 5
+        let mut clock = Clock::new(epoch, observer);
+        let environment = self.update_environment(epoch, &mut clock)?; // step 1
+        let placement = self.place(epoch, &environment, &mut clock); // step 2
+        let (plan, travel) = self.plan_travel(epoch, &placement, fleet, &mut clock)?; // step 3
+        let posts = self.assign(&travel, &mut clock)?; // step 4
+        let movement = self.execute(epoch, plan.as_ref(), &posts, fleet, &mut clock); // step 5
         let moved: Vec<Position> =
             movement.travelled.iter().map(|route| route.last().position).collect();
-        let outcome = Outcome { placement, travel, assignment, movement };
+        let outcome = Outcome { placement, travel, posts, movement };
         let record = self.update_knowledge(epoch, &environment, outcome, [fleet, &moved], clock); // step 6
         observer(Event::Epoch(&record));
         Ok((record, moved))
@@ -88,7 +83,7 @@ impl Mission<'_> {
     /// Step 2: the target layout.
     fn place(&self, epoch: usize, environment: &Environment, clock: &mut Clock<'_>) -> Placement {
         let budget = Budget::Evaluations(self.scenario.file.placement.evaluations);
-        let seed = self.scenario.file.seed.wrapping_add(epoch as u64);
+        let seed = self.scenario.seed_of(epoch);
         clock.time(Stage::Placement, |_| self.solver.solve(&environment.problem, budget, seed))
     }
 
@@ -112,14 +107,16 @@ impl Mission<'_> {
         })
     }
 
-    /// Step 4: which vehicle takes which post.
+    /// Step 4: the post of each vehicle, an index into the placement's cells.
     fn assign(
         &self,
         travel: &TravelTimes,
         clock: &mut Clock<'_>,
-    ) -> Result<Assignment, MissionError> {
+    ) -> Result<Vec<usize>, MissionError> {
         let costs = CostMatrix::new(travel.starts(), travel.goals(), travel.assignment_costs_h())?;
-        Ok(clock.time(Stage::Assignment, |_| assign(&costs, self.scenario.objective))?)
+        let assignment = clock.time(Stage::Assignment, |_| assign(&costs, self.scenario.objective))?;
+        let posts = assignment.column_of_row.into_iter();
+        Ok(posts.map(|post| post.expect("as many posts as vehicles")).collect())
     }
 
     /// Step 5: the vehicles follow their plans until the epoch ends. One that has
@@ -128,20 +125,22 @@ impl Mission<'_> {
         &self,
         epoch: usize,
         plan: &dyn Plan,
-        assignment: &Assignment,
+        posts: &[usize],
         fleet: &[Position],
         clock: &mut Clock<'_>,
     ) -> Movement {
         let start_h = self.scenario.epochs[epoch].start_h;
         let end_h = start_h + self.scenario.epoch_h;
         clock.time(Stage::Execution, |_| {
-            let travelled: Vec<Route> = posts(assignment)
+            let travelled: Vec<Route> = posts
+                .iter()
                 .zip(fleet)
-                .map(|(post, &from)| plan.follow(post, from, start_h, end_h))
+                .map(|(&post, &from)| plan.follow(post, from, start_h, end_h))
                 .collect();
-            let remaining = posts(assignment)
+            let remaining = posts
+                .iter()
                 .zip(&travelled)
-                .map(|(post, route)| {
+                .map(|(&post, route)| {
                     (route.end == RouteEnd::UnderWay)
                         .then(|| plan.follow(post, route.last().position, end_h, f64::INFINITY))
                 })

@@ -197,3 +197,17 @@ pub struct LossTableMetrics {
     /// 90th percentile of the absolute difference from `fine`, dB; NaN if not sampled.
     pub p90_error_db: f64,
 }
+
+impl LossTableMetrics {
+    /// Of a table that was made elsewhere: nothing is known.
+    pub const fn from_file() -> Self {
+        Self {
+            beams: 0,
+            bearings: 0,
+            range_m: f64::NAN,
+            sampled_sources: 0,
+            median_error_db: f64::NAN,
+            p90_error_db: f64::NAN,
+        }
+    }
+}

@@ -15,13 +15,14 @@ pub use file::{
     TransmissionLossSection,
 };
 
-use crate::assignment::Objective;
+use crate::assignment::AssignmentObjective;
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use crate::navigation::{TransitDomain, Vehicle};
 use crate::placement::Method;
 use crate::sonar::detection::PassiveSonar;
 use crate::sonar::link::Modem;
 use crate::sonar::prior::TargetPrior;
+use crate::sonar::transmission_loss::Quality;
 use jiff::{SignedDuration, Timestamp};
 use sonarfleet_acoustics::environment::FluidHalfSpace;
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
@@ -77,12 +78,14 @@ pub struct Scenario {
     pub frequency_hz: f64,
     /// Largest range at which sound is followed, metres; none: to the region's edge.
     pub maximum_range_m: Option<f64>,
+    /// How much work goes into the transmission-loss table.
+    pub quality: Quality,
     /// Placement solver.
     pub method: Method,
     /// Travel planner.
     pub planner: PlannerSettings,
     /// What an assignment minimises.
-    pub objective: Objective,
+    pub objective: AssignmentObjective,
 }
 
 /// Where the ocean comes from.

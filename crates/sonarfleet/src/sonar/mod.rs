@@ -13,5 +13,7 @@ pub mod loss_file;
 pub mod noise;
 pub mod objective;
 pub mod prior;
+pub mod section;
+pub mod transmission_loss;
 
 pub use error::SonarError;

@@ -52,6 +52,7 @@ pub(super) fn check(
             "Hz",
         )?,
         maximum_range_m: planning::maximum_range_m(&checker, &file.transmission_loss)?,
+        quality: planning::quality(file.transmission_loss.quality),
         method: planning::method(&checker, &file.placement)?,
         planner: planning::planner(&checker, &file.navigation)?,
         objective: planning::objective(&checker, &file.assignment)?,

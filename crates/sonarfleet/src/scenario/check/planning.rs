@@ -1,17 +1,18 @@
 //! Domain, epochs with their priors, transmission loss, solver, planner, objective.
 
 use super::{Checker, M_PER_KM};
-use crate::assignment::Objective;
+use crate::assignment::AssignmentObjective;
 use crate::grid::{Position, SurveillanceGrid};
 use crate::navigation::{Crab, TimeOptimal, TransitDomain};
 use crate::npz::Archive;
 use crate::placement::Method;
 use crate::scenario::{
     AssignmentSection, BlobSection, EpochPlan, NavigationSection, ObjectiveName, PlacementSection,
-    PlannerName, PlannerSettings, PriorSection, ScenarioError, ScenarioFile,
+    PlannerName, PlannerSettings, PriorSection, QualityName, ScenarioError, ScenarioFile,
     TransmissionLossSection,
 };
 use crate::sonar::prior::{GaussianBlob, TargetPrior};
+use crate::sonar::transmission_loss::Quality;
 
 pub(super) fn domain(
     checker: &Checker<'_>,
@@ -124,6 +125,14 @@ pub(super) fn maximum_range_m(
     section.maximum_range_km.map(metres).transpose()
 }
 
+pub(super) const fn quality(name: QualityName) -> Quality {
+    match name {
+        QualityName::Fast => Quality::Fast,
+        QualityName::Standard => Quality::Standard,
+        QualityName::Fine => Quality::Fine,
+    }
+}
+
 pub(super) fn method(
     checker: &Checker<'_>,
     section: &PlacementSection,
@@ -159,12 +168,15 @@ pub(super) fn planner(
 pub(super) fn objective(
     checker: &Checker<'_>,
     section: &AssignmentSection,
-) -> Result<Objective, ScenarioError> {
+) -> Result<AssignmentObjective, ScenarioError> {
     Ok(match section.objective {
-        ObjectiveName::Sum => Objective::Sum,
-        ObjectiveName::Bottleneck => Objective::Bottleneck,
-        ObjectiveName::Power => Objective::Power {
-            exponent: checker.within("assignment.exponent", section.exponent, (1.0, 10.0), "")?,
-        },
+        ObjectiveName::Sum => AssignmentObjective::Sum,
+        ObjectiveName::Bottleneck => AssignmentObjective::BottleneckThenSum,
+        ObjectiveName::Power => AssignmentObjective::Power(checker.within(
+            "assignment.exponent",
+            section.exponent,
+            (1.0, 10.0),
+            "(an exponent)",
+        )?),
     })
 }
