@@ -25,7 +25,8 @@ impl CostMatrix {
         if rows.checked_mul(columns) != Some(values.len()) {
             return Err(AssignmentError::WrongLength { rows, columns, found: values.len() });
         }
-        if let Some(index) = values.iter().position(|&cost| cost.is_nan() || cost == f64::NEG_INFINITY)
+        if let Some(index) =
+            values.iter().position(|&cost| cost.is_nan() || cost == f64::NEG_INFINITY)
         {
             return Err(AssignmentError::InvalidCost {
                 row: index / columns,
@@ -62,10 +63,8 @@ impl CostMatrix {
     }
 
     fn read_csv(path: &Path) -> Result<Self, AssignmentError> {
-        let text = std::fs::read_to_string(path).map_err(|source| AssignmentError::Read {
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| AssignmentError::Read { path: path.to_path_buf(), source })?;
         let (mut rows, mut columns, mut values) = (0, 0, Vec::new());
         let text = text.trim_start_matches('\u{feff}');
         for line in text.lines().filter(|line| !line.trim().is_empty()) {

@@ -71,9 +71,8 @@ impl List {
         if candidates.len() <= length {
             return Self { candidates, bound: f64::INFINITY };
         }
-        let order = |a: &Candidate, b: &Candidate| {
-            a.cost.total_cmp(&b.cost).then(a.column.cmp(&b.column))
-        };
+        let order =
+            |a: &Candidate, b: &Candidate| a.cost.total_cmp(&b.cost).then(a.column.cmp(&b.column));
         let (_, next, _) = candidates.select_nth_unstable_by(length, order);
         let bound = next.cost;
         candidates.truncate(length);

@@ -101,8 +101,7 @@ pub fn assign(
 /// for unmatched columns (linear-programming duality).
 fn is_optimal(costs: &CostMatrix, matching: &Matching) -> bool {
     let pairs = || matching.column_of_row.iter().enumerate();
-    let greatest =
-        pairs().map(|(row, &column)| costs.cost(row, column).abs()).fold(0.0, f64::max);
+    let greatest = pairs().map(|(row, &column)| costs.cost(row, column).abs()).fold(0.0, f64::max);
     let lowest_price = matching.prices.iter().copied().fold(0.0, f64::min);
     let tolerance = ROUNDING * (greatest - lowest_price).max(f64::MIN_POSITIVE);
 
@@ -112,15 +111,14 @@ fn is_optimal(costs: &CostMatrix, matching: &Matching) -> bool {
             return false;
         }
     }
-    let prices_allowed = matching
-        .prices
-        .iter()
-        .zip(&matched)
-        .all(|(&price, &matched)| if matched { price <= tolerance } else { price.abs() <= tolerance });
+    let prices_allowed = matching.prices.iter().zip(&matched).all(|(&price, &matched)| {
+        if matched { price <= tolerance } else { price.abs() <= tolerance }
+    });
     let tight = |(row, &column): (usize, &usize)| {
         let reduced = costs.row(row).iter().zip(&matching.prices);
-        let potential =
-            reduced.map(|(cost, price)| cost - price).fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+        let potential = reduced
+            .map(|(cost, price)| cost - price)
+            .fold(f64::INFINITY, |a, b| if b < a { b } else { a });
         costs.cost(row, column) - matching.prices[column] <= potential + tolerance
     };
     prices_allowed && pairs().all(tight)

@@ -236,7 +236,9 @@ impl<'a> Solver<'a> {
             let column = candidate.column;
             let distance = offset + candidate.cost - self.price[column];
             // Nothing beyond the nearest free column lies on the shortest path.
-            if distance >= self.distance[column] || distance > search.nearest_free || self.settled[column]
+            if distance >= self.distance[column]
+                || distance > search.nearest_free
+                || self.settled[column]
             {
                 continue;
             }
