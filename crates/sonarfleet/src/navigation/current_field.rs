@@ -174,12 +174,8 @@ impl CurrentField {
             next_row * columns + column,
             next_row * columns + next_column,
         ];
-        let weights = [
-            (1.0 - right) * (1.0 - up),
-            right * (1.0 - up),
-            (1.0 - right) * up,
-            right * up,
-        ];
+        let weights =
+            [(1.0 - right) * (1.0 - up), right * (1.0 - up), (1.0 - right) * up, right * up];
         let at = |step: usize| {
             let mut sum = [0.0; 2];
             for (corner, weight) in corners.into_iter().zip(weights) {
@@ -265,7 +261,8 @@ mod tests {
         let new = |u: f64| CurrentField::new(one.clone(), one.clone(), one.clone(), &[u], &[0.0]);
         assert!(matches!(new(f64::NAN), Err(NavigationError::NoWater { nodes: 1, times: 1 })));
         assert!(matches!(new(23.0), Err(NavigationError::ImplausibleCurrent { .. })));
-        let axis = CurrentField::new(vec![1.0, 1.0], one.clone(), one.clone(), &[0.0; 2], &[0.0; 2]);
+        let axis =
+            CurrentField::new(vec![1.0, 1.0], one.clone(), one.clone(), &[0.0; 2], &[0.0; 2]);
         assert!(matches!(axis, Err(NavigationError::InvalidAxis { axis: "east", .. })));
         let shape = CurrentField::new(one.clone(), one.clone(), one, &[0.0], &[]);
         assert!(matches!(shape, Err(NavigationError::WrongShape { component: "northward", .. })));

@@ -142,8 +142,7 @@ fn positions(archive: &Archive, key: &str) -> Result<Vec<Position>, NpzError> {
     if array.shape.len() != 2 || array.shape[1] != 2 {
         return Err(archive.wrong_shape(key, array.shape, "[count, 2]".to_owned()));
     }
-    let position =
-        |pair: &[f64]| Position::new(pair[0] * METRES_PER_KM, pair[1] * METRES_PER_KM);
+    let position = |pair: &[f64]| Position::new(pair[0] * METRES_PER_KM, pair[1] * METRES_PER_KM);
     Ok(array.values.chunks_exact(2).map(position).collect())
 }
 

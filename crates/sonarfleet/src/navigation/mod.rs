@@ -3,6 +3,8 @@
 mod crab;
 mod current_field;
 mod error;
+mod export;
+mod forecast_currents;
 mod instance;
 mod planner;
 mod route;
@@ -14,6 +16,7 @@ mod vehicle;
 pub use crab::{Crab, crab_heading_rad};
 pub use current_field::CurrentField;
 pub use error::NavigationError;
+pub use export::{NamedRoute, RouteFormat, write_routes};
 pub use instance::{NavigationInstance, Trip};
 pub use planner::{Observation, Pilot, Plan, Planner, Voyage, rollout_travel_times};
 pub use route::{Obstacle, Route, RouteEnd, RoutePoint, Unreachable};

@@ -163,15 +163,15 @@ mod tests {
         let (omega, half_m) = (2e-5, 40_000.0);
         let nodes = vec![-half_m, half_m];
         let u: Vec<f64> = [-half_m, half_m].iter().flat_map(|y| [-omega * y; 2]).collect();
-        let v: Vec<f64> =
-            [0, 1].iter().flat_map(|_| [-omega * half_m, omega * half_m]).collect();
+        let v: Vec<f64> = [0, 1].iter().flat_map(|_| [-omega * half_m, omega * half_m]).collect();
         let currents = CurrentField::new(nodes.clone(), nodes, vec![0.0], &u, &v).unwrap();
         let still = Vehicle::new(1e-9, 500.0, 1.0).unwrap();
         let start = Position::new(5_000.0, 0.0);
         let hours = 8.0;
         let error_m = |steps: u32| {
             let step_h = hours / f64::from(steps);
-            let end = (0..steps).fold(start, |at, _| advance(&currents, still, at, 0.0, 0.0, step_h));
+            let end =
+                (0..steps).fold(start, |at, _| advance(&currents, still, at, 0.0, 0.0, step_h));
             let angle = omega * hours * SECONDS_PER_HOUR;
             end.distance_m(Position::new(5_000.0 * angle.cos(), 5_000.0 * angle.sin()))
         };

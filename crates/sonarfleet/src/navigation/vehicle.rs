@@ -169,7 +169,8 @@ mod tests {
 
     #[test]
     fn impossible_vehicles_and_domains_are_refused() {
-        for (speed, radius, interval) in [(0.0, 500.0, 1.0), (0.23, f64::NAN, 1.0), (0.23, 500.0, -1.0)]
+        for (speed, radius, interval) in
+            [(0.0, 500.0, 1.0), (0.23, f64::NAN, 1.0), (0.23, 500.0, -1.0)]
         {
             assert!(Vehicle::new(speed, radius, interval).is_err());
         }

@@ -50,10 +50,13 @@ impl BackwardSweep<'_> {
             earlier[step * nodes * lanes..]
                 .par_chunks_mut(self.grid.columns * lanes)
                 .enumerate()
-                .for_each_init(|| directions.clone(), |feet, (row, values)| {
-                    self.relax_row(row, values, later, &motions, &land, feet);
-                    self.capture(row, values, lanes, &motions, &captures[row]);
-                });
+                .for_each_init(
+                    || directions.clone(),
+                    |feet, (row, values)| {
+                        self.relax_row(row, values, later, &motions, &land, feet);
+                        self.capture(row, values, lanes, &motions, &captures[row]);
+                    },
+                );
         }
         ValueFunction {
             grid: self.grid.clone(),
@@ -145,10 +148,8 @@ impl BackwardSweep<'_> {
                 let mean_m_s = velocity[node][part] + half_s * (dx[part] * u + dy[part] * v);
                 (seconds * mean_m_s / spacing_m[part]) as f32
             });
-            let steering = [
-                [1.0 + half_s * dx[0], half_s * dy[0]],
-                [half_s * dx[1], 1.0 + half_s * dy[1]],
-            ];
+            let steering =
+                [[1.0 + half_s * dx[0], half_s * dy[0]], [half_s * dx[1], 1.0 + half_s * dy[1]]];
             let scaled = |part: usize| {
                 steering[part].map(|factor| (through_water_m * factor / spacing_m[part]) as f32)
             };
@@ -174,7 +175,8 @@ impl BackwardSweep<'_> {
             best.fill(self.lost_h - step_h);
             let node = row * columns + column;
             if land.get(node) != Some(&true) {
-                let mut pairs = feet.of(&self.grid, column, row, &motions[node], land).chunks_exact(2);
+                let mut pairs =
+                    feet.of(&self.grid, column, row, &motions[node], land).chunks_exact(2);
                 for pair in &mut pairs {
                     keep_better(best, later, [pair[0], pair[1]], columns);
                 }

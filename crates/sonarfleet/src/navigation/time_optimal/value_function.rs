@@ -155,8 +155,11 @@ impl ValueFunction {
         let node = layer * self.grid.node_count() + stencil.node;
         let corners = [node, node + 1, node + columns, node + columns + 1];
         let value = |node: usize| self.hours[node * self.lanes + goal];
-        let sum: f32 =
-            corners.into_iter().zip(stencil.weights).map(|(node, weight)| weight * value(node)).sum();
+        let sum: f32 = corners
+            .into_iter()
+            .zip(stencil.weights)
+            .map(|(node, weight)| weight * value(node))
+            .sum();
         f64::from(sum)
     }
 }
