@@ -2,7 +2,6 @@
 
 use super::stage::Clock;
 use super::{Environment, Mission, excerpts};
-use crate::assignment::Assignment;
 use crate::grid::{CellId, Position};
 use crate::navigation::{Route, TravelTimes};
 use crate::placement::random::RandomSearch;
@@ -111,7 +110,7 @@ impl Mission<'_> {
             fixed_sensors: scenario.fixed_sensors.clone(),
             fleet_depth_m: scenario.fleet_depth_m,
             vehicle_speed_m_s: scenario.vehicle.speed_m_s(),
-            transit_margin_m: scenario.domain.north_east().east_m - scenario.grid.width_m(),
+            transit_margin_m: scenario.transit_margin_m(),
             connectivity_threshold: scenario.connectivity_threshold,
             epochs,
         }

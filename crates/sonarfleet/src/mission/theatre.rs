@@ -4,12 +4,13 @@ use super::MissionError;
 use crate::grid::CellId;
 use crate::navigation::CurrentField;
 use crate::scenario::{OceanSource, Scenario};
-use sonarfleet_ocean::{Bathymetry, Forecast, OceanState, Quantity, io};
+use crate::sonar::section::BEHIND_M;
+use sonarfleet_ocean::io::{ForecastRequest, read_bathymetry, read_forecast};
+use sonarfleet_ocean::{Bathymetry, Forecast, OceanState, Quantity, Region};
 use std::path::PathBuf;
 
-/// Sound and currents are needed this far beyond the region, degrees; data that
-/// end earlier hold on.
-const PADDING_DEG: f64 = 0.34;
+/// Metres in a degree of latitude; of longitude, times the cosine of the latitude.
+const METRES_PER_DEGREE: f64 = 111_000.0;
 
 /// What stays the same over a run.
 #[derive(Debug)]
@@ -42,8 +43,8 @@ impl Theatre {
         let currents = CurrentField::from_forecast(
             &forecast,
             &scenario.frame,
-            &scenario.domain,
             scenario.fleet_depth_m,
+            scenario.domain,
             scenario.start,
         )?;
         let cell_degrees: Vec<(f64, f64)> = scenario
@@ -91,11 +92,21 @@ fn load(scenario: &Scenario) -> Result<(Forecast, Bathymetry), MissionError> {
     match &scenario.ocean {
         OceanSource::Synthetic(ocean) => Ok((ocean.forecast(), ocean.bathymetry())),
         OceanSource::Files { states, bathymetry } => {
-            let area = scenario.region().grown(PADDING_DEG);
-            let forecast = io::read_forecast(states, &Quantity::ALL, scenario.region(), area)?;
-            Ok((forecast, io::read_bathymetry(bathymetry, area)?))
+            let area = needed(scenario);
+            let request =
+                ForecastRequest { required: &Quantity::ALL, region: Some(area), span: None };
+            let forecast = read_forecast(states, &request)?;
+            Ok((forecast, read_bathymetry(bathymetry, Some(area))?))
         }
     }
+}
+
+/// The region with what is needed around it: vehicles transit in the margin, and
+/// slopes behind a source send sound back.
+fn needed(scenario: &Scenario) -> Region {
+    let margin_m = scenario.transit_margin_m().max(BEHIND_M);
+    let (_, latitude_deg) = scenario.region().centre_deg();
+    scenario.region().grown(margin_m / (METRES_PER_DEGREE * latitude_deg.to_radians().cos()))
 }
 
 fn bathymetry_path(scenario: &Scenario) -> PathBuf {

@@ -215,6 +215,11 @@ impl Scenario {
         files.iter().map(|path| self.home.join(path)).collect()
     }
 
+    /// How far beyond the region vehicles may transit, metres.
+    pub fn transit_margin_m(&self) -> f64 {
+        -self.domain.south_west().east_m
+    }
+
     /// The region.
     pub fn region(&self) -> Region {
         self.frame.region()

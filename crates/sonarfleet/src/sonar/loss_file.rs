@@ -5,7 +5,7 @@ use crate::grid::{CellId, SurveillanceGrid};
 use crate::npz::{self, Archive, NamedArray, NpzError};
 use serde::{Deserialize, Serialize};
 use sonarfleet_ocean::OceanError;
-use sonarfleet_ocean::io::{Attribute, Dataset, Field, Values, read_field};
+use sonarfleet_ocean::io::{Attribute, DataSource, Dataset, Field, NetcdfFile, Values, read_field};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -252,9 +252,9 @@ pub fn read_rows(path: &Path) -> Result<LossRows, LossFileError> {
 }
 
 fn description(path: &Path) -> Result<LossDescription, LossFileError> {
-    let attributes = sonarfleet_ocean::io::read_attributes(path)?;
+    let file = NetcdfFile::open(path)?;
     let value = |name: &'static str| {
-        attributes.iter().find(|attribute| attribute.name == name).map(|found| &found.value)
+        file.attributes().iter().find(|attribute| attribute.name == name).map(|found| &found.value)
     };
     let missing = |what| LossFileError::Mismatch {
         path: path.to_owned(),

@@ -90,7 +90,7 @@ fn prior(
         PriorSection::File { path } => {
             let path = checker.existing("prior.path", path)?;
             let array = Archive::open(&path)
-                .and_then(|mut archive| archive.f64s("prior"))
+                .and_then(|archive| archive.f64s("prior"))
                 .map_err(|error| checker.file("prior.path", &path, error))?;
             if array.shape != [grid.rows, grid.columns] {
                 let reason = format!(
