@@ -9,7 +9,7 @@ pub(crate) mod route;
 pub(crate) mod run;
 pub(crate) mod tl;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use serde::Serialize;
 use sonarfleet::scenario::Scenario;
 use std::path::Path;
@@ -41,5 +41,12 @@ fn scenario(path: Option<&Path>) -> Result<Scenario> {
 /// Prints one JSON object.
 fn print_json(object: &impl Serialize) -> Result<()> {
     println!("{}", serde_json::to_string_pretty(object)?);
+    Ok(())
+}
+
+/// Refuses an epoch that the scenario does not have.
+fn check_epoch(scenario: &Scenario, epoch: usize) -> Result<()> {
+    let last = scenario.epochs.len() - 1;
+    ensure!(epoch <= last, "--epoch {epoch}: the scenario has epochs 0 to {last}");
     Ok(())
 }

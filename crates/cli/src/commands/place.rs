@@ -3,22 +3,22 @@
 use super::Manner;
 use crate::args::PlaceArgs;
 use crate::progress::Progress;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use serde_json::json;
-use sonarfleet::mission::{Environment, Theatre};
-use sonarfleet::placement::instance::Instance;
+use sonarfleet::mission::{Environment, Theatre, input};
+use sonarfleet::placement::instance;
 use sonarfleet::placement::{Budget, Method, PlacementInput, PlacementProblem};
 use sonarfleet::scenario::{PlacementSection, Scenario};
 use std::time::Instant;
 
 pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
     let instance = args.input.extension().is_some_and(|extension| extension == "npz");
-    let (mut input, defaults) =
+    let (mut problem, defaults) =
         if instance { from_instance(args)? } else { from_scenario(args, manner)? };
     if let Some(count) = args.count {
-        input.vehicles = count;
+        problem.vehicles = count;
     }
-    let problem = PlacementProblem::new(&input)
+    let problem = PlacementProblem::new(&problem)
         .with_context(|| format!("{}", args.input.display()))?;
     let method: Method = match &args.method {
         Some(name) => name.parse()?,
@@ -75,17 +75,12 @@ fn from_instance(args: &PlaceArgs) -> Result<(PlacementInput, Defaults)> {
     let section = PlacementSection::default();
     let defaults =
         Defaults { method: section.method.parse()?, evaluations: section.evaluations, seed: 1 };
-    Ok((Instance::read(&args.input)?, defaults))
+    Ok((instance::read(&args.input)?, defaults))
 }
 
 fn from_scenario(args: &PlaceArgs, manner: Manner) -> Result<(PlacementInput, Defaults)> {
     let mut scenario = Scenario::read(&args.input)?;
-    ensure!(
-        args.epoch < scenario.epochs.len(),
-        "--epoch {}: the scenario has epochs 0 to {}",
-        args.epoch,
-        scenario.epochs.len() - 1
-    );
+    super::check_epoch(&scenario, args.epoch)?;
     if let Some(path) = &args.loss {
         scenario.epochs[args.epoch].loss_file = Some(path.clone());
     }
@@ -99,5 +94,5 @@ fn from_scenario(args: &PlaceArgs, manner: Manner) -> Result<(PlacementInput, De
         evaluations: scenario.file.placement.evaluations,
         seed: scenario.seed_of(args.epoch),
     };
-    Ok((environment.into_input(), defaults))
+    Ok((input(&scenario, &theatre, args.epoch, &environment.loss), defaults))
 }

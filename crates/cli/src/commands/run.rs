@@ -3,11 +3,12 @@
 use super::Manner;
 use crate::args::RunArgs;
 use crate::progress::Progress;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde_json::json;
-use sonarfleet::mission::{Event, Mission, Stage, Theatre};
+use sonarfleet::mission::{Event, Mission, Theatre};
+use sonarfleet::navigation::{NamedRoute, write_routes};
 use sonarfleet::record::{
-    Checkpoint, EpochRecord, Provenance, RecordError, RunDirectory, RunRecord, write_run,
+    Checkpoint, EpochRecord, Provenance, RunDirectory, RunRecord, write_run,
 };
 use sonarfleet::scenario::Scenario;
 use std::path::{Path, PathBuf};
@@ -48,14 +49,15 @@ fn first_free() -> PathBuf {
 
 /// Runs all epochs that are not done yet and writes everything down.
 fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Result<RunRecord> {
-    let provenance = Provenance::of(scenario)?;
+    let provenance =
+        Provenance::new(scenario.resolved(), scenario.file.seed, scenario.input_files())?;
     let theatre = Theatre::of(scenario)?;
-    let solver = scenario.method.solver();
+    let (solver, planner) = (scenario.method.solver(), scenario.planner());
     let mission = Mission {
         scenario,
         theatre: &theatre,
         solver: solver.as_ref(),
-        planner: scenario.planner.planner(),
+        planner: planner.as_ref(),
     };
     let mut state = Checkpoint::load(directory.path(), &provenance.fingerprint)?
         .unwrap_or_else(|| Checkpoint {
@@ -71,12 +73,28 @@ fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Resu
         state.epochs.push(record);
         state.save(directory.path())?;
     }
-    let record = RunRecord::new(scenario, &theatre, state.epochs);
-    write_run(directory.path(), scenario, &provenance, &record)?;
+    let record = mission.run_record(state.epochs);
+    write_run(directory.path(), &provenance, &record)?;
+    export_routes(directory.path(), scenario, &record)?;
     sonarfleet_report::write_figures(&record, &directory.path().join("figures"))?;
     sonarfleet_report::write_report(&record, &directory.path().join("report.html"))?;
     Checkpoint::remove(directory.path())?;
     Ok(record)
+}
+
+/// The way of every vehicle over the whole run, in every format.
+fn export_routes(directory: &Path, scenario: &Scenario, record: &RunRecord) -> Result<()> {
+    let names: Vec<String> = (0..scenario.fleet.len()).map(|k| format!("vehicle {k}")).collect();
+    let tracks: Vec<_> = (0..names.len()).map(|vehicle| record.track(vehicle)).collect();
+    let statuses: Vec<&str> = (0..names.len()).map(|vehicle| record.status(vehicle)).collect();
+    let named: Vec<NamedRoute<'_>> = (0..names.len())
+        .map(|k| NamedRoute { name: &names[k], status: statuses[k], points: &tracks[k] })
+        .collect();
+    for extension in ["geojson", "kml", "gpx", "csv"] {
+        let path = directory.join("routes").with_extension(extension);
+        write_routes(path, &named, &scenario.frame, scenario.start)?;
+    }
+    Ok(())
 }
 
 /// Tells of an epoch as it goes.

@@ -9,6 +9,7 @@ use crate::sonar::loss_file::{LossDescription, read_table};
 use crate::sonar::section::Waters;
 use crate::sonar::transmission_loss::{
     LossTableSettings, TransmissionLossTable, compute_transmission_loss, estimate_error,
+    transmission_loss_from,
 };
 use sonarfleet_acoustics::environment::Boundary;
 use sonarfleet_ocean::OceanState;
@@ -138,11 +139,24 @@ impl Acoustics {
         Ok(Self { waters, settings })
     }
 
+    /// The rows of some sources, [source, target], dB.
+    ///
+    /// # Errors
+    /// As of computing them.
+    pub fn rows(
+        &self,
+        scenario: &Scenario,
+        sources: &[CellId],
+        progress: Progress<'_>,
+    ) -> Result<Vec<f32>, MissionError> {
+        Ok(transmission_loss_from(&self.waters, &scenario.grid, &self.settings, sources, progress)?)
+    }
+
     /// The whole table.
     ///
     /// # Errors
     /// As of computing it.
-    pub fn table(
+    fn table(
         &self,
         scenario: &Scenario,
         progress: Progress<'_>,

@@ -30,6 +30,11 @@ impl Checkpoint {
         crate::atomic::write(&path, &bytes).map_err(RecordError::io(path))
     }
 
+    /// Whether a run directory holds a checkpoint.
+    pub fn exists(directory: &Path) -> bool {
+        directory.join(Self::FILE).exists()
+    }
+
     /// Reads the checkpoint of an unfinished run; none if it had not finished an epoch.
     ///
     /// # Errors

@@ -53,6 +53,32 @@ pub struct RunRecord {
     pub epochs: Vec<EpochRecord>,
 }
 
+impl RunRecord {
+    /// Where a vehicle went over all epochs.
+    pub fn track(&self, vehicle: usize) -> Vec<TrackPoint> {
+        let mut track: Vec<TrackPoint> = Vec::new();
+        for epoch in &self.epochs {
+            let points = &epoch.routes[vehicle].track;
+            // An epoch starts where the one before ended.
+            let from = points.partition_point(|point| {
+                track.last().is_some_and(|last| point.time_h <= last.time_h)
+            });
+            track.extend(&points[from..]);
+        }
+        track
+    }
+
+    /// How a vehicle stands at the end of the run, in words.
+    pub fn status(&self, vehicle: usize) -> &str {
+        match self.epochs.last().map(|epoch| &epoch.routes[vehicle]) {
+            None => "not under way",
+            Some(RouteRecord { arrived: true, .. }) => "on its post",
+            Some(RouteRecord { failure: Some(reason), .. }) => reason,
+            Some(_) => "under way",
+        }
+    }
+}
+
 /// One placement–reconfiguration cycle (section 5.4 of the paper).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EpochRecord {

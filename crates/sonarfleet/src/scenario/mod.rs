@@ -17,7 +17,7 @@ pub use file::{
 
 use crate::assignment::AssignmentObjective;
 use crate::grid::{CellId, Position, SurveillanceGrid};
-use crate::navigation::{TransitDomain, Vehicle};
+use crate::navigation::{Crab, Planner, TimeOptimal, TransitDomain, Vehicle};
 use crate::placement::Method;
 use crate::sonar::detection::PassiveSonar;
 use crate::sonar::link::Modem;
@@ -83,7 +83,9 @@ pub struct Scenario {
     /// Placement solver.
     pub method: Method,
     /// Travel planner.
-    pub planner: PlannerSettings,
+    pub planner: PlannerName,
+    /// Resolution and horizon of planning.
+    pub time_optimal: TimeOptimal,
     /// What an assignment minimises.
     pub objective: AssignmentObjective,
 }
@@ -132,21 +134,12 @@ pub struct EpochPlan {
     pub loss_file: Option<PathBuf>,
 }
 
-/// Which planner, and its resolution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PlannerSettings {
-    /// The time-optimal value function.
-    TimeOptimal(crate::navigation::TimeOptimal),
-    /// Crab-angle compensation on the straight line.
-    Crab(crate::navigation::Crab),
-}
-
-impl PlannerSettings {
-    /// The planner behind its contract.
-    pub fn planner(&self) -> &dyn crate::navigation::Planner {
+impl PlannerName {
+    /// The planner of that name, with a resolution and horizon.
+    pub fn planner(self, time_optimal: TimeOptimal) -> Box<dyn Planner> {
         match self {
-            Self::TimeOptimal(planner) => planner,
-            Self::Crab(planner) => planner,
+            Self::TimeOptimal => Box::new(time_optimal),
+            Self::Crab => Box::new(Crab { horizon_h: time_optimal.horizon_h }),
         }
     }
 }
@@ -179,6 +172,11 @@ impl Scenario {
     /// If a value is impossible or a file it names is not there.
     pub fn check(file: ScenarioFile, origin: &str, home: &Path) -> Result<Self, ScenarioError> {
         check::check(file, origin, home)
+    }
+
+    /// The travel planner.
+    pub fn planner(&self) -> Box<dyn Planner> {
+        self.planner.planner(self.time_optimal)
     }
 
     /// Seed of the random choices of one epoch.

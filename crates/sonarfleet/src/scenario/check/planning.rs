@@ -3,12 +3,12 @@
 use super::{Checker, M_PER_KM};
 use crate::assignment::AssignmentObjective;
 use crate::grid::{Position, SurveillanceGrid};
-use crate::navigation::{Crab, TimeOptimal, TransitDomain};
+use crate::navigation::{TimeOptimal, TransitDomain};
 use crate::npz::Archive;
 use crate::placement::Method;
 use crate::scenario::{
     AssignmentSection, BlobSection, EpochPlan, NavigationSection, ObjectiveName, PlacementSection,
-    PlannerName, PlannerSettings, PriorSection, QualityName, ScenarioError, ScenarioFile,
+    PriorSection, QualityName, ScenarioError, ScenarioFile,
     TransmissionLossSection,
 };
 use crate::sonar::prior::{GaussianBlob, TargetPrior};
@@ -143,25 +143,25 @@ pub(super) fn method(
         .map_err(|error| checker.wrong("placement.method", &section.method, error))
 }
 
-pub(super) fn planner(
+pub(super) fn time_optimal(
     checker: &Checker<'_>,
     section: &NavigationSection,
-) -> Result<PlannerSettings, ScenarioError> {
-    let horizon_h =
-        checker.within("navigation.horizon_h", section.horizon_h, (1.0, 1000.0), "h")?;
-    Ok(match section.planner {
-        PlannerName::Crab => PlannerSettings::Crab(Crab { horizon_h }),
-        PlannerName::TimeOptimal => PlannerSettings::TimeOptimal(TimeOptimal {
-            spacing_m: checker.within(
-                "navigation.spacing_m",
-                section.spacing_m,
-                (50.0, 10_000.0),
-                "m",
-            )?,
-            step_h: checker.within("navigation.step_h", section.step_h, (0.05, 6.0), "h")?,
-            headings: checker.count("navigation.headings", section.headings, (4, 360))?,
-            horizon_h,
-        }),
+) -> Result<TimeOptimal, ScenarioError> {
+    Ok(TimeOptimal {
+        spacing_m: checker.within(
+            "navigation.spacing_m",
+            section.spacing_m,
+            (50.0, 10_000.0),
+            "m",
+        )?,
+        step_h: checker.within("navigation.step_h", section.step_h, (0.05, 6.0), "h")?,
+        headings: checker.count("navigation.headings", section.headings, (4, 360))?,
+        horizon_h: checker.within(
+            "navigation.horizon_h",
+            section.horizon_h,
+            (1.0, 1000.0),
+            "h",
+        )?,
     })
 }
 

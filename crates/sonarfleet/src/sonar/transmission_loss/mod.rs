@@ -10,5 +10,5 @@ pub use accuracy::{ErrorEstimate, estimate_error};
 pub use quality::{Numerics, Quality, UnknownQuality};
 pub use table::{
     LARGEST_LOSS_DB, LossTableSettings, TransmissionLossError, TransmissionLossTable,
-    compute_transmission_loss,
+    compute_transmission_loss, transmission_loss_from,
 };

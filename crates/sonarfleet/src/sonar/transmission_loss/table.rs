@@ -96,11 +96,26 @@ pub fn compute_transmission_loss(
     settings: &LossTableSettings,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<TransmissionLossTable, TransmissionLossError> {
-    settings.check()?;
     let sources: Vec<CellId> = grid.cells().collect();
+    let loss_db = transmission_loss_from(waters, grid, settings, &sources, progress)?;
+    Ok(TransmissionLossTable { cell_count: grid.cell_count(), loss_db })
+}
+
+/// As [`compute_transmission_loss`], but only the rows of some sources, in their
+/// order: [source, target], dB.
+///
+/// # Errors
+/// If a setting is not positive.
+pub fn transmission_loss_from(
+    waters: &Waters,
+    grid: &SurveillanceGrid,
+    settings: &LossTableSettings,
+    sources: &[CellId],
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<f32>, TransmissionLossError> {
+    settings.check()?;
     let numerics = settings.quality.numerics();
-    let rows = compute_rows(waters, grid, settings, &numerics, &sources, progress)?;
-    Ok(TransmissionLossTable { cell_count: grid.cell_count(), loss_db: rows.concat() })
+    Ok(compute_rows(waters, grid, settings, &numerics, sources, progress)?.concat())
 }
 
 /// The rows of some sources, in their order.
