@@ -31,6 +31,12 @@ impl Frame {
         self.x + self.width
     }
 
+    /// The frame without a rim of this width.
+    pub(crate) fn shrunk(self, rim: f64) -> Self {
+        let (width, height) = (self.width - 2.0 * rim, self.height - 2.0 * rim);
+        Self::new(self.x + rim, self.y + rim, width, height)
+    }
+
     pub(crate) fn bottom(self) -> f64 {
         self.y + self.height
     }
@@ -178,11 +184,8 @@ impl Canvas {
         for run in runs {
             let (along, down) = (offset, run.drop);
             offset += run.width();
-            let at = if upright {
-                [at[0] + down, at[1] - along]
-            } else {
-                [at[0] + along, at[1] + down]
-            };
+            let at =
+                if upright { [at[0] + down, at[1] - along] } else { [at[0] + along, at[1] + down] };
             self.shapes.push(Shape::Text { at, run, align: Align::Start, upright });
         }
     }

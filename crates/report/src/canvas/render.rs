@@ -146,7 +146,9 @@ impl<B: DrawingBackend> Pen<'_, B> {
             Shape::Line { points, stroke } if self.vector => {
                 let points: Vec<_> = points.iter().map(|&point| self.place(point)).collect();
                 let width = (stroke.width * self.scale).round().max(1.0) as u32;
-                self.backend.draw_path(points, &paint(stroke.colour).stroke_width(width)).map_err(said)
+                self.backend
+                    .draw_path(points, &paint(stroke.colour).stroke_width(width))
+                    .map_err(said)
             }
             Shape::Line { points, stroke } => self.stroke(points, *stroke),
             Shape::Disc { centre, radius, fill } => {
@@ -175,9 +177,7 @@ impl<B: DrawingBackend> Pen<'_, B> {
                     Align::End => HPos::Right,
                 };
                 let colour = paint(run.style.colour);
-                let style = TextStyle::from(font)
-                    .color(&colour)
-                    .pos(Pos::new(anchor, VPos::Top));
+                let style = TextStyle::from(font).color(&colour).pos(Pos::new(anchor, VPos::Top));
                 let top = (top[0].round() as i32, top[1].round() as i32);
                 self.backend.draw_text(&run.text, &style, top).map_err(said)
             }
@@ -201,7 +201,8 @@ impl<B: DrawingBackend> Pen<'_, B> {
                 let y = end[1] + side * across[1];
                 (x.round() as i32, y.round() as i32)
             };
-            let corners = [corner(from, 1.0), corner(to, 1.0), corner(to, -1.0), corner(from, -1.0)];
+            let corners =
+                [corner(from, 1.0), corner(to, 1.0), corner(to, -1.0), corner(from, -1.0)];
             self.backend.fill_polygon(corners, &fill).map_err(said)?;
             if index > 0 && half > 1.0 {
                 let joint = (from[0].round() as i32, from[1].round() as i32);

@@ -80,14 +80,18 @@ mod tests {
     #[test]
     fn subscripts_are_smaller_and_lower() {
         let runs = runs("J_{d} = 36", Style::new(10.0, INK));
-        assert_eq!(runs.iter().map(|run| run.text.as_str()).collect::<Vec<_>>(), ["J", "d", " = 36"]);
+        assert_eq!(
+            runs.iter().map(|run| run.text.as_str()).collect::<Vec<_>>(),
+            ["J", "d", " = 36"]
+        );
         assert!(runs[1].style.size < 10.0 && runs[1].drop > 0.0);
     }
 
     #[test]
     fn every_sign_the_figures_use_is_in_the_font() {
         let signs = "λ₂τΩ°×±·–—−≥≤µ′″…₀₁₉²⁻¹ N E é ü ";
-        let width = |text: &str| Run { text: text.into(), style: Style::new(10.0, INK), drop: 0.0 }.width();
+        let width =
+            |text: &str| Run { text: text.into(), style: Style::new(10.0, INK), drop: 0.0 }.width();
         let missing = width("\u{e000}");
         for sign in signs.chars().filter(|c| *c != ' ') {
             let font_width = width(&sign.to_string());

@@ -31,8 +31,7 @@ impl<'a> Map<'a> {
             width * scale,
             height * scale,
         );
-        let axes =
-            Axes { frame, x: [-margin, width - margin], y: [-margin, height - margin] };
+        let axes = Axes { frame, x: [-margin, width - margin], y: [-margin, height - margin] };
         Self { axes, record }
     }
 
@@ -83,8 +82,7 @@ impl<'a> Map<'a> {
     /// Contours of the water depth through the cells' centres.
     pub(super) fn bathymetry(&self, canvas: &mut Canvas, stroke: Stroke) {
         let grid = self.record.grid;
-        let depth =
-            |column, row| f64::from(self.record.cell_depth_m[row * grid.columns + column]);
+        let depth = |column, row| f64::from(self.record.cell_depth_m[row * grid.columns + column]);
         for level in self.depth_levels() {
             for segment in contour(grid.columns, grid.rows, depth, level) {
                 let points = segment.map(|[column, row]| {

@@ -91,8 +91,7 @@ fn footer(canvas: &mut Canvas, record: &RunRecord, y: f64) {
 /// the outermost centres.
 pub(crate) fn region_deg(record: &RunRecord) -> [f64; 4] {
     let edges = |values: &[f64], count: usize| {
-        let (low, high) =
-            ticks::range(values.iter().copied()).unwrap_or((f64::NAN, f64::NAN));
+        let (low, high) = ticks::range(values.iter().copied()).unwrap_or((f64::NAN, f64::NAN));
         let half = (high - low) / (2 * count.saturating_sub(1).max(1)) as f64;
         [low - half, high + half]
     };

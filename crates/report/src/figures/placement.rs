@@ -30,10 +30,8 @@ pub(super) fn draw(record: &RunRecord, epoch: &EpochRecord) -> Canvas {
         kilometres(source.east_m),
         kilometres(source.north_m)
     );
-    let random_title = format!(
-        "(c) Random layout: J_{{d}} = {}",
-        number(metrics.random_detection_utility, 2)
-    );
+    let random_title =
+        format!("(c) Random layout: J_{{d}} = {}", number(metrics.random_detection_utility, 2));
     let target_title = format!(
         "(d) Target layout: J_{{d}} = {}, λ₂ = {} {} τ = {}",
         number(metrics.detection_utility, 2),
@@ -75,12 +73,8 @@ pub(super) fn draw(record: &RunRecord, epoch: &EpochRecord) -> Canvas {
     ];
     for (index, panel) in panels.into_iter().enumerate() {
         let (column, row) = ((index % 2) as f64, (index / 2) as f64);
-        let room = Frame::new(
-            LEFT + column * COLUMN,
-            TOP + row * (height + ROW_GAP),
-            PANEL,
-            height,
-        );
+        let room =
+            Frame::new(LEFT + column * COLUMN, TOP + row * (height + ROW_GAP), PANEL, height);
         let map = Map::new(record, 0.0, room);
         map.field(&mut canvas, panel.value, panel.scale);
         map.blocked(&mut canvas);

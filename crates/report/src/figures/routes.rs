@@ -18,6 +18,8 @@ const LEGEND: f64 = 40.0;
 const DASH: [f64; 2] = [2.6, 1.8];
 /// Least distance between arrows, points.
 const ARROW_SPACING: f64 = 15.0;
+/// Arrows nearer to the frame than this are left out, points.
+const EDGE: f64 = 4.0;
 
 pub(super) fn draw(record: &RunRecord, epochs: &[EpochRecord]) -> Canvas {
     let columns = epochs.len().clamp(1, 2);
@@ -135,11 +137,9 @@ fn currents(canvas: &mut Canvas, map: &Map, epoch: &EpochRecord, fastest: f64) {
     for row in (first(current.north_m.len(), skip_north)..current.north_m.len()).step_by(skip_north)
     {
         for column in (first(columns, skip_east)..columns).step_by(skip_east) {
-            let at = map
-                .axes
-                .at(current.east_m[column] / M_PER_KM, current.north_m[row] / M_PER_KM);
-            let inside = (frame.x..=frame.right()).contains(&at[0])
-                && (frame.y..=frame.bottom()).contains(&at[1]);
+            let at =
+                map.axes.at(current.east_m[column] / M_PER_KM, current.north_m[row] / M_PER_KM);
+            let inside = within(at, frame.shrunk(EDGE));
             let index = row * columns + column;
             let velocity = [current.u_m_s[index], current.v_m_s[index]].map(f64::from);
             if inside && velocity.iter().all(|v| v.is_finite()) {
@@ -167,10 +167,7 @@ fn arrow(canvas: &mut Canvas, at: Point, [u, v]: [f64; 2], fastest: f64, frame: 
     let neck = along(length / 2.0 - head, 0.0);
     canvas.clipped_line(&[along(-length / 2.0, 0.0), neck], frame, Stroke::new(CURRENT, 0.7));
     let tip = along(length / 2.0, 0.0);
-    let inside = |[x, y]: Point| {
-        (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
-    };
-    if inside(tip) {
+    if within(tip, frame) {
         let side = head * 0.36;
         let neck = length / 2.0 - head;
         canvas.polygon(vec![tip, along(neck, side), along(neck, -side)], CURRENT);

@@ -35,6 +35,10 @@ pub(super) fn draw(record: &RunRecord, epochs: &[EpochRecord]) -> Canvas {
     let slices = Scale { table: THERMAL, range: ticks::round_range(slice_range, 5, fallback) };
     let whole = ticks::range(all().flat_map(|s| s.speed_m_s.iter().map(|&c| f64::from(c))));
     let sections = Scale { table: THERMAL, range: ticks::round_range(whole, 5, fallback) };
+    // Room at both ends keeps the numbers of neighbouring panels apart.
+    let (low, high) = whole.unwrap_or(fallback);
+    let room = (0.08 * (high - low)).max(1.0);
+    let speeds = (low - room, high + room);
     let depth = all().map(deepest_m).fold(0.0, f64::max);
     let depth = if depth > 0.0 { depth } else { 1.0 };
 
@@ -61,7 +65,7 @@ pub(super) fn draw(record: &RunRecord, epochs: &[EpochRecord]) -> Canvas {
 
         let profile = Axes {
             frame: Frame { y: profile_top, ..section.frame },
-            x: [sections.range.0, sections.range.1],
+            x: [speeds.0, speeds.1],
             y: section.y,
         };
         draw_profile(&mut canvas, profile, sound, record.fleet_depth_m);
@@ -94,7 +98,8 @@ fn row_remarks(
         ticks::number(record.fleet_depth_m, 0),
     );
     canvas.text([LEFT, section_top - 4.5], &section, Align::Start, REMARK);
-    let profile = "Mean over the region; shaded: from the slowest to the fastest point of each depth";
+    let profile =
+        "Mean over the region; shaded: from the slowest to the fastest point of each depth";
     canvas.text([LEFT, profile_top - 4.5], profile, Align::Start, REMARK);
 }
 
@@ -144,9 +149,8 @@ fn draw_section(
         .chain(level_end(bottom.last(), axes.x[1]))
         .collect();
     for pair in bottom.windows(2).filter(|pair| pair.iter().all(|p| p[1].is_finite())) {
-        let [from, to] = [pair[0], pair[1]].map(|[x, depth]| {
-            axes.at(x, depth.clamp(axes.y[1], axes.y[0]))
-        });
+        let [from, to] =
+            [pair[0], pair[1]].map(|[x, depth]| axes.at(x, depth.clamp(axes.y[1], axes.y[0])));
         let floor = axes.frame.bottom();
         canvas.polygon(vec![from, to, [to[0], floor], [from[0], floor]], SEABED);
         canvas.line(vec![from, to], Stroke::new(INK, 0.6));

@@ -15,18 +15,18 @@ const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// The size of a made-up run.
 #[derive(Debug, Clone, Copy)]
-pub struct Size {
-    pub columns: usize,
-    pub rows: usize,
-    pub vehicles: usize,
-    pub epochs: usize,
+pub(crate) struct Size {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    pub(crate) vehicles: usize,
+    pub(crate) epochs: usize,
 }
 
 /// The size of the embedded scenario.
-pub const FULL: Size = Size { columns: 30, rows: 30, vehicles: 40, epochs: 4 };
+pub(crate) const FULL: Size = Size { columns: 30, rows: 30, vehicles: 40, epochs: 4 };
 
 /// A made-up run.
-pub fn record(size: Size) -> RunRecord {
+pub(crate) fn record(size: Size) -> RunRecord {
     let grid = SurveillanceGrid {
         columns: size.columns,
         rows: size.rows,
@@ -121,7 +121,9 @@ fn epoch(
     let routes: Vec<RouteRecord> = starts
         .iter_mut()
         .enumerate()
-        .map(|(vehicle, start)| route(vehicle, start, layout[vehicle], grid, start_h, size.vehicles))
+        .map(|(vehicle, start)| {
+            route(vehicle, start, layout[vehicle], grid, start_h, size.vehicles)
+        })
         .collect();
     let at_end: Vec<CellId> = starts.iter().filter_map(cell_of).collect();
     let reachable = || routes.iter().map(|r| r.expected_travel_time_h).filter(|t| t.is_finite());
@@ -190,12 +192,7 @@ fn corridor(grid: SurveillanceGrid, cell: CellId, epoch: usize) -> f64 {
 }
 
 /// Cells of high prior that keep a distance from each other.
-fn chosen(
-    grid: SurveillanceGrid,
-    prior: &[f64],
-    blocked: &[CellId],
-    count: usize,
-) -> Vec<CellId> {
+fn chosen(grid: SurveillanceGrid, prior: &[f64], blocked: &[CellId], count: usize) -> Vec<CellId> {
     let mut order: Vec<CellId> = grid.cells().filter(|cell| !blocked.contains(cell)).collect();
     order.sort_by(|a, b| prior[b.0].total_cmp(&prior[a.0]));
     let mut layout: Vec<CellId> = Vec::new();
@@ -258,7 +255,15 @@ fn route(
     let expected_travel_time_h = points[points.len() - 1].time_h - start_h;
     points.truncate(inside);
     *start = points[inside - 1].position;
-    RouteRecord { vehicle, post, expected_travel_time_h, track: points, planned, arrived, failure: None }
+    RouteRecord {
+        vehicle,
+        post,
+        expected_travel_time_h,
+        track: points,
+        planned,
+        arrived,
+        failure: None,
+    }
 }
 
 fn loss_db(
@@ -275,13 +280,18 @@ fn loss_db(
     (20.0 * range_m.log10() + 0.0004 * range_m + zones + shelf) as f32
 }
 
-fn sound_speed(grid: SurveillanceGrid, time_h: f64, depth: &dyn Fn(Position) -> f64) -> SoundSpeedRecord {
+fn sound_speed(
+    grid: SurveillanceGrid,
+    time_h: f64,
+    depth: &dyn Fn(Position) -> f64,
+) -> SoundSpeedRecord {
     let depth_m: Vec<f64> =
         vec![0., 10., 25., 50., 75., 100., 150., 200., 250., 300., 400., 500., 600., 800., 1000.]
             .into_iter()
             .chain([1200., 1400., 1600., 1800., 2000., 2200.])
             .collect();
-    let axis = |length: f64| -> Vec<f64> { (0..=30).map(|k| f64::from(k) / 30.0 * length).collect() };
+    let axis =
+        |length: f64| -> Vec<f64> { (0..=30).map(|k| f64::from(k) / 30.0 * length).collect() };
     let (east_m, north_m) = (axis(grid.width_m()), axis(grid.height_m()));
     let mut speed_m_s = Vec::new();
     for &z in &depth_m {
@@ -289,7 +299,8 @@ fn sound_speed(grid: SurveillanceGrid, time_h: f64, depth: &dyn Fn(Position) -> 
             for &east in &east_m {
                 let p = Position::new(east, north);
                 let centre = [14_000.0 + 350.0 * time_h, 17_000.0];
-                let r2 = ((east - centre[0]).powi(2) + (north - centre[1]).powi(2)) / 9000.0_f64.powi(2);
+                let r2 =
+                    ((east - centre[0]).powi(2) + (north - centre[1]).powi(2)) / 9000.0_f64.powi(2);
                 let lift = 55.0 * (-r2).exp() + 20.0 * ((north - east * 0.4) / 6000.0).tanh();
                 let z_eff = (z + lift * (z / 120.0).min(1.0)).max(0.0);
                 let temperature = 4.0 + 24.0 / (1.0 + (z_eff / 190.0).powf(1.5));
