@@ -64,7 +64,7 @@ mod tests {
         // The mean is above the level, so the corners above it are joined and
         // each line cuts off one of the other two.
         for segment in segments {
-            let mean = [0, 1].map(|axis| (segment[0][axis] + segment[1][axis]) / 2.0);
+            let mean = [0, 1].map(|axis| f64::midpoint(segment[0][axis], segment[1][axis]));
             assert!((mean[0] - mean[1]).abs() > 0.5, "{mean:?}");
         }
     }

@@ -94,7 +94,8 @@ class Axes {
     g.font = FONT;
     g.textAlign = "center";
     g.textBaseline = "top";
-    const xs = ticksOf(Math.min(...this.x), Math.max(...this.x), Math.min(7, this.width / 62));
+    const every = ticksOf(Math.min(...this.x), Math.max(...this.x), Math.min(7, this.width / 62));
+    const xs = this.whole ? every.filter(Number.isInteger) : every;
     labelsOf(xs).forEach((text, k) => {
       const [px] = this.at(xs[k], this.y[0]);
       mark(g, [[px, bottom], [px, bottom + 4]], theme.muted);

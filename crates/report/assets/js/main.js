@@ -31,8 +31,8 @@ function drawTime() {
 function drawEpochName() {
   const epoch = now();
   byId("epoch").value = state.epoch;
-  byId("epoch").setAttribute("aria-valuetext", `epoch ${epoch.epoch}, ${epoch.time}`);
-  byId("epoch-name").textContent = `Epoch ${epoch.epoch} · ${epoch.time}`;
+  byId("epoch").setAttribute("aria-valuetext", `epoch ${epoch.index}, ${epoch.time}`);
+  byId("epoch-name").textContent = `Epoch ${epoch.index} · ${epoch.time}`;
   byId("previous").disabled = state.epoch === 0;
   byId("next").disabled = state.epoch === run.epochs.length - 1;
 }
@@ -144,7 +144,7 @@ function describeRun() {
 
 function listen() {
   byId("epoch").max = String(run.epochs.length - 1);
-  byId("epoch-ticks").replaceChildren(...run.epochs.map((e) => element("span", String(e.epoch))));
+  byId("epoch-ticks").replaceChildren(...run.epochs.map((e) => element("span", String(e.index))));
   byId("epoch").addEventListener("input", (event) => chooseEpoch(Number(event.target.value)));
   byId("previous").addEventListener("click", () => chooseEpoch(state.epoch - 1));
   byId("next").addEventListener("click", () => chooseEpoch(state.epoch + 1));

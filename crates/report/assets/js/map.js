@@ -57,7 +57,7 @@ function drawMap() {
   g.restore();
   mapAxes.draw(g, "East (km)", "North (km)");
   colourBar(g, mapAxes.left + width + 12, top, 12, height, layer.scale, layer.label);
-  canvas.setAttribute("aria-label", `Map of the region in epoch ${epoch.epoch}: ${layer.name}`);
+  canvas.setAttribute("aria-label", `Map of the region in epoch ${epoch.index}: ${layer.name}`);
 }
 
 function drawContours(g) {

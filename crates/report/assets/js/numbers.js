@@ -73,7 +73,7 @@ function drawNumbers() {
   const head = element("tr");
   head.append(element("th", ""));
   run.epochs.forEach((epoch, k) => {
-    const cell = element("th", `Epoch ${epoch.epoch}`, k === state.epoch ? "now" : "");
+    const cell = element("th", `Epoch ${epoch.index}`, k === state.epoch ? "now" : "");
     cell.scope = "col";
     cell.append(element("br"), element("span", epoch.time.replace(/^\d{4}-/, ""), "hint"));
     head.append(cell);
@@ -189,6 +189,7 @@ function drawUtility() {
   const top = roundRange([0, Math.max(...all, 0) || 1], 5)[1];
   const last = Math.max(1, run.epochs.length - 1);
   const axes = new Axes(44, 10, Math.max(60, width - 44 - 12), 160, [-0.15, last + 0.15], [0, top]);
+  axes.whole = true;
   axes.draw(g, "Epoch", "", true);
   const [x] = axes.at(state.epoch, 0);
   mark(g, [[x, axes.top], [x, axes.top + axes.height]], theme.muted, 1, [2, 2]);

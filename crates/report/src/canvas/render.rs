@@ -1,11 +1,11 @@
 //! Canvases drawn with plotters' SVG and bitmap backends.
 
-use super::text::{FONT, FONT_HEIGHT_EM, font};
+use super::text::{FONT, Run};
 use super::{Align, Canvas, Point, Shape, Stroke};
 use crate::colour::Rgb;
 use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontTransform, RGBColor, TextStyle};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, TextStyle};
 
 /// Units of an SVG file per point: plotters' coordinates are whole numbers.
 const SVG_UNITS_PER_POINT: f64 = 20.0;
@@ -156,32 +156,49 @@ impl<B: DrawingBackend> Pen<'_, B> {
                 let centre = self.place(*centre);
                 self.backend.draw_circle(centre, radius, &paint(*fill).filled(), true).map_err(said)
             }
-            Shape::Text { at, run, align, upright } => {
-                let em = run.style.size * self.scale;
-                let (height, baseline) = if self.vector {
-                    (em * SVG_SIZE_PER_EM, em * SVG_BASELINE_EM)
-                } else {
-                    (em * FONT_HEIGHT_EM, em * FONT_HEIGHT_EM / 2.0)
-                };
-                let mut font = font(height, run.style.bold);
-                let at = [at[0] * self.scale, at[1] * self.scale];
-                let top = if *upright {
-                    font = font.transform(FontTransform::Rotate270);
-                    [at[0] - baseline, at[1]]
-                } else {
-                    [at[0], at[1] - baseline]
-                };
-                let anchor = match align {
-                    Align::Start => HPos::Left,
-                    Align::Middle => HPos::Center,
-                    Align::End => HPos::Right,
-                };
-                let colour = paint(run.style.colour);
-                let style = TextStyle::from(font).color(&colour).pos(Pos::new(anchor, VPos::Top));
-                let top = (top[0].round() as i32, top[1].round() as i32);
-                self.backend.draw_text(&run.text, &style, top).map_err(said)
+            Shape::Text { at, run, align, upright } if self.vector => {
+                self.vector_text(*at, run, *align, *upright)
             }
+            Shape::Text { at, run, align, upright } => self.raster_text(*at, run, *align, *upright),
         }
+    }
+
+    fn vector_text(&mut self, at: Point, run: &Run, align: Align, upright: bool) -> Drawn {
+        let em = run.style.size * self.scale;
+        let weight = if run.style.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let mut font = FontDesc::new(FontFamily::Name(FONT), em * SVG_SIZE_PER_EM, weight);
+        let mut top = [at[0] * self.scale, at[1] * self.scale];
+        if upright {
+            font = font.transform(FontTransform::Rotate270);
+            top[0] -= em * SVG_BASELINE_EM;
+        } else {
+            top[1] -= em * SVG_BASELINE_EM;
+        }
+        let anchor = match align {
+            Align::Start => HPos::Left,
+            Align::Middle => HPos::Center,
+            Align::End => HPos::Right,
+        };
+        let colour = paint(run.style.colour);
+        let style = TextStyle::from(font).color(&colour).pos(Pos::new(anchor, VPos::Top));
+        let top = (top[0].round() as i32, top[1].round() as i32);
+        self.backend.draw_text(&run.text, &style, top).map_err(said)
+    }
+
+    fn raster_text(&mut self, at: Point, run: &Run, align: Align, upright: bool) -> Drawn {
+        let before = match align {
+            Align::Start => 0.0,
+            Align::Middle => run.width() / 2.0,
+            Align::End => run.width(),
+        };
+        let start = if upright { [at[0], at[1] + before] } else { [at[0] - before, at[1]] };
+        let (x, y) = self.place(start);
+        let colour = paint(run.style.colour);
+        run.cover(self.scale, |right, down, coverage| {
+            let pixel = if upright { (x + down, y - right) } else { (x + right, y + down) };
+            let paint = colour.mix(coverage).to_backend_color();
+            self.backend.draw_pixel(pixel, paint).map_err(said)
+        })
     }
 
     /// A line as one quadrilateral per segment, with discs where segments meet:

@@ -241,7 +241,7 @@ fn legend(canvas: &mut Canvas, record: &RunRecord, top: f64, fastest: f64) {
         (stroke_sample(Stroke::new(PLANNED, 0.8), true), "Planned".into()),
         (Box::new(|canvas, at| square(canvas, at, true)), "Post reached".into()),
         (Box::new(|canvas, at| square(canvas, at, false)), "Post ahead".into()),
-        (Box::new(|canvas, at| cross(canvas, at)), "Post unreachable".into()),
+        (Box::new(cross), "Post unreachable".into()),
     ];
     if !record.fixed_sensors.is_empty() {
         entries.push((Box::new(|canvas, at| diamond(canvas, at, 3.4, WHITE)), "Fixed".into()));

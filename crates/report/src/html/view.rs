@@ -32,7 +32,7 @@ pub(super) struct Report<'a> {
 
 #[derive(Serialize)]
 struct Epoch<'a> {
-    epoch: usize,
+    index: usize,
     time: String,
     start_h: f64,
     duration_h: f64,
@@ -107,7 +107,7 @@ impl<'a> Epoch<'a> {
         let current = &epoch.current;
         let history = thinned(&epoch.metrics.placement_history).copied().collect();
         Self {
-            epoch: epoch.epoch,
+            index: epoch.epoch,
             time: crate::figures::readable_time(&epoch.time),
             start_h: epoch.start_h,
             duration_h: epoch.duration_h,
