@@ -11,7 +11,7 @@ use sonarfleet_ocean::io::{
     ForecastRequest, download_request, inspect, read_forecast, write_bathymetry, write_forecast,
 };
 use sonarfleet_ocean::synthetic::{SyntheticOcean, TITLE};
-use sonarfleet_ocean::{Column, Quantity};
+use sonarfleet_ocean::Column;
 use std::fs;
 use std::path::{Path, PathBuf};
 

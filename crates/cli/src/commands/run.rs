@@ -116,7 +116,8 @@ impl Teller {
         let mut bar = self.bar.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         match event {
             Event::Started { epoch, stage } => {
-                *bar = Some(Progress::new(&format!("epoch {}/{} {stage}", epoch + 1, self.epochs)));
+                let name = format!("epoch {}/{} {stage}", epoch + 1, self.epochs);
+                *bar = Some(Progress::new(&name, false));
             }
             Event::Progressed { done, total } => {
                 if let Some(bar) = bar.as_ref() {

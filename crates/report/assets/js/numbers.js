@@ -64,10 +64,10 @@ function drawNumbers() {
     ["Sources compared", (m) => String(m.transmission_loss.sampled_sources)],
     ["group", "Wall-clock seconds"],
   ];
-  const stages = [...new Set(run.epochs.flatMap((e) => e.metrics.seconds.map(([stage]) => stage)))];
-  const seconds = (m, stage) => m.seconds.find(([name]) => name === stage)?.[1];
-  for (const stage of stages) rows.push([stage, (m) => number(seconds(m, stage), 2)]);
-  rows.push(["all stages", (m) => number(m.seconds.reduce((sum, [, s]) => sum + s, 0), 2)]);
+  const stages = [...new Set(run.epochs.flatMap((e) => e.seconds.map(([stage]) => stage)))];
+  const seconds = (e, stage) => e.seconds.find(([name]) => name === stage)?.[1];
+  for (const stage of stages) rows.push([stage, (m, e) => number(seconds(e, stage), 2)]);
+  rows.push(["all stages", (m, e) => number(e.seconds.reduce((sum, [, s]) => sum + s, 0), 2)]);
 
   const table = byId("numbers");
   const head = element("tr");

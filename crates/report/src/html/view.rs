@@ -47,6 +47,8 @@ struct Epoch<'a> {
     current: Current<'a>,
     routes: Vec<Route<'a>>,
     metrics: EpochMetrics,
+    /// Wall-clock seconds by stage, in order.
+    seconds: &'a [(String, f64)],
 }
 
 #[derive(Serialize)]
@@ -132,6 +134,7 @@ impl<'a> Epoch<'a> {
             },
             routes: epoch.routes.iter().map(Route::new).collect(),
             metrics: EpochMetrics { placement_history: history, ..epoch.metrics.clone() },
+            seconds: &epoch.seconds,
         }
     }
 }

@@ -91,6 +91,15 @@ pub enum NavigationError {
         /// Known extensions.
         known: &'static str,
     },
+    /// No writer for the extension of a matrix file.
+    #[error("{}: no matrix format for this extension, known are .npz, .nc", path.display())]
+    UnknownMatrixFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A NetCDF file cannot be written.
+    #[error(transparent)]
+    NetCdf(#[from] sonarfleet_ocean::OceanError),
     /// A time of a route is outside the calendar.
     #[error("{hours} h after {start} is no date")]
     NoDate {
