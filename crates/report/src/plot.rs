@@ -169,7 +169,7 @@ impl Scale {
             canvas.rectangle(Frame::new(frame.x, y, frame.width, height + 0.05), colour);
         }
         canvas.outline(frame, FRAME_STROKE);
-        let count = ((frame.height / 24.0) as usize).clamp(2, 6);
+        let count = ((frame.height / 18.0) as usize).clamp(2, 6);
         let positions = ticks::ticks(self.range.0, self.range.1, count);
         let mut widest = 0.0_f64;
         for (&value, text) in positions.iter().zip(ticks::labels(&positions)) {

@@ -187,7 +187,7 @@ function drawUtility() {
   const all = series.flatMap(([, of]) => run.epochs.map((e) => of(e.metrics))).filter(Number.isFinite);
   const [g, width] = prepared(byId("utility"), 276);
   const top = roundRange([0, Math.max(...all, 0) || 1], 5)[1];
-  const last = Math.max(1, run.epochs.length - 1);
+  const last = run.epochs.length - 1;
   const axes = new Axes(44, 10, Math.max(60, width - 44 - 12), 160, [-0.15, last + 0.15], [0, top]);
   axes.whole = true;
   axes.draw(g, "Epoch", "", true);

@@ -6,7 +6,7 @@ use super::priors::prior_range;
 use super::{WIDTH, epoch_title, footer};
 use crate::canvas::{Align, Canvas, Frame};
 use crate::colour::{AMP, DENSE, LOSS, WHITE};
-use crate::plot::{Scale, TITLE};
+use crate::plot::{Axes, Scale, TITLE};
 use crate::ticks::number;
 use sonarfleet::grid::CellId;
 use sonarfleet::record::{EpochRecord, RunRecord};
@@ -84,7 +84,9 @@ pub(super) fn draw(record: &RunRecord, epoch: &EpochRecord) -> Canvas {
             None => {}
         }
         map.axes.draw(&mut canvas, Some(EAST), Some(NORTH));
-        map.axes.title(&mut canvas, &panel.title);
+        // At the room's edge: titles are wider than the map of a narrow region.
+        let titled = Axes { frame: Frame { x: room.x, ..map.axes.frame }, ..map.axes };
+        titled.title(&mut canvas, &panel.title);
         let frame = map.axes.frame;
         let bar = Frame::new(frame.right() + 7.0, frame.y, 7.0, frame.height);
         panel.scale.bar(&mut canvas, bar, panel.label);
