@@ -17,7 +17,7 @@ use std::num::NonZeroUsize;
 ///
 /// Starts from connected greedy or, where that is infeasible, from the best disc;
 /// where no disc is feasible either, exchanges that raise λ₂ come first. A proposal
-/// costs about a microsecond; several chains share the budget.
+/// costs one to two microseconds; several chains share the budget.
 #[derive(Debug, Clone, Copy)]
 pub struct Annealing {
     /// Independent chains; an evaluation budget is divided among them, and they
@@ -36,7 +36,7 @@ impl Default for Annealing {
 const TEMPERATURES: [f64; 2] = [0.2, 0.005];
 
 /// Proposals for one vehicle before the next one is chosen: taking a vehicle out
-/// of the coverage costs as much as about ten proposals.
+/// of the coverage costs as much as the utilities of tens of proposals.
 const PROPOSALS_PER_VISIT: u64 = 12;
 
 /// Share of the proposals that look around the vehicle itself.

@@ -59,8 +59,9 @@ pub struct PlacementProblem {
 /// precision: what the inner loops of the solvers stream through.
 ///
 /// Rows are dense. With a detector whose probability never falls below its
-/// false-alarm probability, distant cells add up: on the instances of this
-/// project dropping what lies below 0.01 would misjudge `J_d` by up to a hundredth.
+/// false-alarm probability, distant cells add up: with 40 vehicles on 30 × 30
+/// cells, leaving out probabilities below 0.01 lowered `J_d` of random and of
+/// compact layouts by a tenth to a third.
 /// Range limits what is looked at on the targets' side: cells whose share of the
 /// prior is below [`NEGLIGIBLE_SHARE`] are left out.
 #[derive(Debug, Clone)]
