@@ -17,7 +17,7 @@ use std::num::NonZeroUsize;
 ///
 /// Starts from connected greedy or, where that is infeasible, from the best disc;
 /// where no disc is feasible either, exchanges that raise λ₂ come first. A proposal
-/// costs about a microsecond; several chains share the budget.
+/// costs one to two microseconds; several chains share the budget.
 #[derive(Debug, Clone, Copy)]
 pub struct Annealing {
     /// Independent chains; an evaluation budget is divided among them, and they
@@ -33,17 +33,17 @@ impl Default for Annealing {
 }
 
 /// Temperatures at start and end, in units of the starting layout's `J_d` per vehicle.
-const TEMPERATURES: [f64; 2] = [0.2, 0.002];
+const TEMPERATURES: [f64; 2] = [0.2, 0.005];
 
 /// Proposals for one vehicle before the next one is chosen: taking a vehicle out
-/// of the coverage costs as much as about ten proposals.
+/// of the coverage costs as much as the utilities of tens of proposals.
 const PROPOSALS_PER_VISIT: u64 = 12;
 
 /// Share of the proposals that look around the vehicle itself.
-const OWN_NEIGHBOURHOOD: f64 = 0.6;
+const OWN_NEIGHBOURHOOD: f64 = 0.75;
 
 /// Largest distance of a proposal from the cell it looks around, in cells.
-const REACH: i64 = 3;
+const REACH: i64 = 2;
 
 /// Share of the budget for reaching feasibility where no simple layout has it.
 const REPAIR_SHARE: f64 = 0.5;

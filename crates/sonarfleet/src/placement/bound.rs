@@ -1,59 +1,117 @@
-//! Upper bounds on what any layout can achieve.
+//! An upper bound on what any layout can achieve.
 
 use super::PlacementProblem;
+use super::coverage::{Coverage, scalar_product, sum};
 use crate::grid::CellId;
 
-/// An upper bound on `J_d` of every layout of the problem's size, feasible or not.
+/// An upper bound on `J_d` of every layout of the problem's size, feasible or not:
+/// it does not know about connectivity.
 ///
-/// `J_d` is monotone and submodular, so for every set A of cells no layout exceeds
-/// `J_d`(A) plus the G largest gains over A (Leskovec et al. 2007,
-/// doi:10.1145/1281192.1281239, section 4). The bound is the least of these over
-/// the prefixes of the greedy layout and the given layout. It does not know about
-/// connectivity.
-pub fn upper_bound(problem: &PlacementProblem, layout: &[CellId]) -> f64 {
-    let mut residual = residual(problem, &[]);
-    let mut least = f64::INFINITY;
-    for _ in 0..=problem.vehicles() {
-        let gains = gains(problem, &residual);
-        least = least.min(bound_over(problem, &residual, &gains));
-        let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]));
-        // There is one: the problem has at least as many deployable cells as vehicles, and at least one.
-        if let Some(best) = best {
-            multiply(&mut residual, problem.detection(problem.deployable()[best]));
+/// A target is detected with a probability of at most 1 and at most Σ `P_d` over
+/// the layout. Weighing the second by u and the first by `P_T` − u, 0 ≤ u ≤ `P_T`,
+/// no layout exceeds
+///
+/// D(u) = Σ (`P_T` − u) + the G largest of Σ u · `P_d` over the deployable cells,
+///
+/// for any u: the Lagrangian dual of the linear relaxation of maximal coverage
+/// (Fisher 2004, doi:10.1287/mnsc.1040.0263). With u = `P_T` × what a set of cells
+/// misses it is the submodular bound of Leskovec et al. (2007,
+/// doi:10.1145/1281192.1281239); the best of these over the prefixes of the greedy
+/// layout is where projected subgradient steps start.
+pub fn upper_bound(problem: &PlacementProblem) -> f64 {
+    const STEPS: usize = 300;
+    const PATIENCE: usize = 8;
+
+    let (mut weights, reached) = best_prefix(problem);
+    let limits = problem.initial_residual();
+    let (mut best_value, mut best_weights) = (f64::INFINITY, weights.clone());
+    let (mut scale, mut stalled) = (1.0, 0);
+    for _ in 0..STEPS {
+        let chosen = most_weight(problem, &weights);
+        let covered: f64 = chosen.iter().map(|(weight, _)| f64::from(*weight)).sum();
+        let value = problem.utility_of_residual(sum(&weights)) + covered;
+        if value < best_value {
+            (best_value, stalled) = (value, 0);
+            best_weights.copy_from_slice(&weights);
+        } else {
+            stalled += 1;
+            if stalled == PATIENCE {
+                (scale, stalled) = (0.5 * scale, 0);
+                weights.copy_from_slice(&best_weights);
+                continue;
+            }
+        }
+        // The subgradient: Σ P_d over the chosen cells − 1.
+        let mut slope = vec![chosen.len() as f32 - 1.0; weights.len()];
+        for (_, cell) in &chosen {
+            for (slope, miss) in slope.iter_mut().zip(problem.miss(*cell)) {
+                *slope -= miss;
+            }
+        }
+        // Targets of no weight only fill up the rows.
+        for (slope, limit) in slope.iter_mut().zip(limits) {
+            *slope = if *limit > 0.0 { *slope } else { 0.0 };
+        }
+        let length_squared = f64::from(scalar_product(&slope, &slope));
+        let step = (scale * (value - reached).max(0.0) / length_squared.max(1e-30)) as f32;
+        for ((weight, slope), limit) in weights.iter_mut().zip(&slope).zip(limits) {
+            *weight = (*weight - step * slope).clamp(0.0, *limit);
         }
     }
-    let residual = self::residual(problem, layout);
-    least.min(bound_over(problem, &residual, &gains(problem, &residual)))
+    exact_value(problem, &best_weights)
 }
 
-/// Prior times what the fixed sensors and a layout miss.
-fn residual(problem: &PlacementProblem, layout: &[CellId]) -> Vec<f64> {
-    let mut residual = problem.prior().values().to_vec();
-    for &cell in problem.fixed_sensors().iter().chain(layout) {
-        multiply(&mut residual, problem.detection(cell));
+/// Residual of the prefix of the greedy layout that gives the least bound, and
+/// `J_d` of the whole greedy layout.
+fn best_prefix(problem: &PlacementProblem) -> (Vec<f32>, f64) {
+    let mut coverage = Coverage::new(problem, &[]);
+    let (mut least, mut best) = (f64::INFINITY, problem.initial_residual().to_vec());
+    for slot in 0..problem.vehicles() {
+        let chosen = most_weight(problem, coverage.residual());
+        let gains: f64 = chosen.iter().map(|(gain, _)| f64::from(*gain)).sum();
+        if coverage.utility() + gains < least {
+            least = coverage.utility() + gains;
+            best.copy_from_slice(coverage.residual());
+        }
+        coverage.insert(slot, chosen[0].1);
     }
-    residual
+    (best, coverage.utility())
 }
 
-fn multiply(residual: &mut [f64], detection: &[f64]) {
-    for (residual, p_d) in residual.iter_mut().zip(detection) {
-        *residual *= 1.0 - p_d;
+/// The G deployable cells with the largest Σ weight · `P_d`, largest first.
+fn most_weight(problem: &PlacementProblem, weights: &[f32]) -> Vec<(f32, CellId)> {
+    let total = sum(weights);
+    let mut cells: Vec<(f32, CellId)> = problem
+        .deployable()
+        .iter()
+        .map(|&cell| (total - scalar_product(weights, problem.miss(cell)), cell))
+        .collect();
+    cells.sort_by(|a, b| b.0.total_cmp(&a.0));
+    cells.truncate(problem.vehicles());
+    cells
+}
+
+/// D(u) in double precision, over all targets; those that the search leaves out
+/// count as detected.
+fn exact_value(problem: &PlacementProblem, weights: &[f32]) -> f64 {
+    let prior = problem.prior().values();
+    let mut left = prior.to_vec();
+    for &cell in problem.fixed_sensors() {
+        for (left, p_d) in left.iter_mut().zip(problem.detection(cell)) {
+            *left *= 1.0 - p_d;
+        }
     }
-}
-
-/// Gain of each deployable cell.
-fn gains(problem: &PlacementProblem, residual: &[f64]) -> Vec<f64> {
-    let gain = |cell: &CellId| {
-        residual.iter().zip(problem.detection(*cell)).map(|(left, p_d)| left * p_d).sum()
+    let mut all_weights = vec![0.0; prior.len()];
+    for (&target, &weight) in problem.targets().iter().zip(weights) {
+        all_weights[target.0] = f64::from(weight).min(left[target.0]);
+    }
+    let weighed = |cell: &CellId| -> f64 {
+        all_weights.iter().zip(problem.detection(*cell)).map(|(weight, p_d)| weight * p_d).sum()
     };
-    problem.deployable().iter().map(gain).collect()
-}
-
-fn bound_over(problem: &PlacementProblem, residual: &[f64], gains: &[f64]) -> f64 {
-    let reached = problem.prior().total() - residual.iter().sum::<f64>();
-    let mut gains = gains.to_vec();
-    gains.sort_unstable_by(|a, b| b.total_cmp(a));
-    let further: f64 = gains.iter().take(problem.vehicles()).sum();
-    // Not more than there is.
-    (reached + further).min(problem.prior().total())
+    let mut covered: Vec<f64> = problem.deployable().iter().map(weighed).collect();
+    covered.sort_unstable_by(|a, b| b.total_cmp(a));
+    covered.truncate(problem.vehicles());
+    let total = problem.prior().total();
+    // D(0) = Σ P_T holds too.
+    total + (covered.iter().sum::<f64>() - all_weights.iter().sum::<f64>()).min(0.0)
 }

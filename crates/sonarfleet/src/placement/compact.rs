@@ -2,6 +2,7 @@
 //! anything is.
 
 use super::PlacementProblem;
+use super::coverage::Coverage;
 use super::network::Network;
 use crate::grid::CellId;
 
@@ -24,17 +25,20 @@ pub fn best_disc(problem: &PlacementProblem) -> Vec<CellId> {
         .iter()
         .map(|&centre| {
             let layout = disc(problem, centre);
-            (super::coverage::Coverage::new(problem, &layout).utility(), layout)
+            (Coverage::new(problem, &layout).utility(), layout)
         })
         .collect();
     discs.sort_by(|a, b| b.0.total_cmp(&a.0));
     if let Some(first) = discs.iter().position(|(_, disc)| Network::new(problem, disc).is_some()) {
         return discs.swap_remove(first).1;
     }
-    let connectivity = |layout: &[CellId]| problem.connectivity(layout);
-    discs
-        .into_iter()
-        .map(|(_, disc)| disc)
-        .max_by(|a, b| connectivity(a).total_cmp(&connectivity(b)))
-        .expect("a problem has at least one deployable cell")
+    let mut best = Vec::new();
+    let mut highest = f64::NEG_INFINITY;
+    for (_, disc) in discs {
+        let connectivity = problem.connectivity(&disc);
+        if connectivity > highest {
+            (highest, best) = (connectivity, disc);
+        }
+    }
+    best
 }

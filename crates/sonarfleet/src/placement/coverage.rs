@@ -66,6 +66,11 @@ impl<'p> Coverage<'p> {
         cell
     }
 
+    /// Prior × what all sensors miss, for the targets that count.
+    pub(super) fn residual(&self) -> &[f32] {
+        &self.residual
+    }
+
     fn multiply(&mut self) {
         for &cell in &self.layout {
             multiply(&mut self.residual, self.problem.miss(cell));
@@ -79,7 +84,7 @@ fn multiply(residual: &mut [f32], miss: &[f32]) {
     }
 }
 
-fn sum(values: &[f32]) -> f32 {
+pub(super) fn sum(values: &[f32]) -> f32 {
     let mut sums = [0.0; LANES];
     for values in values.chunks_exact(LANES) {
         for (sum, value) in sums.iter_mut().zip(values) {
@@ -89,7 +94,7 @@ fn sum(values: &[f32]) -> f32 {
     sums.iter().sum()
 }
 
-fn scalar_product(left: &[f32], right: &[f32]) -> f32 {
+pub(super) fn scalar_product(left: &[f32], right: &[f32]) -> f32 {
     let mut sums = [0.0; LANES];
     for (left, right) in left.chunks_exact(LANES).zip(right.chunks_exact(LANES)) {
         for ((sum, left), right) in sums.iter_mut().zip(left).zip(right) {

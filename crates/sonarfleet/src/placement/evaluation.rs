@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 /// Detection utility and connectivity of a layout, from a full evaluation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Evaluation {
-    /// `J_d`, Eq. (6): expected number of targets detected.
+    /// `J_d`, Equation (6): expected number of targets detected.
     pub detection_utility: f64,
     /// λ₂ of the communication graph of vehicles and fixed sensors; ∞ for a lone vehicle.
     pub algebraic_connectivity: f64,
@@ -16,7 +16,7 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// Reward R of Eq. (10) under a multiplier λₖ.
+    /// Reward R of Equation (10) under a multiplier λₖ.
     pub fn reward(&self, connectivity_threshold: f64, connectivity_multiplier: f64) -> f64 {
         penalised_reward(
             self.detection_utility,

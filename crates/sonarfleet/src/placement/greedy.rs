@@ -23,7 +23,7 @@ impl Solver for Greedy {
 
 /// Always the cell with the largest gain among those whose links to the vehicles
 /// and fixed sensors already there add up to a required degree (all of them while
-/// none reaches it). Layouts are built for each of [`REQUIRED_DEGREES`]; the best
+/// none reaches it). Layouts are built for ten required degrees; the best
 /// is kept. Takes ten times G·N evaluations; often, but not always, feasible.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConnectedGreedy;

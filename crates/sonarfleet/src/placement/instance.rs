@@ -36,7 +36,7 @@ struct Parameters {
     tau: f64,
 }
 
-/// Reads an instance: the paper's detector, Eq. (4), and its link, Eqs. (8)
+/// Reads an instance: the paper's detector, Equation (4), and its link, Eqs. (8)
 /// and (9), on one table of transmission losses for both.
 ///
 /// `params` holds `nx`, `ny` (columns and rows), `cell_km`, `G` (vehicles), `SL`,

@@ -28,7 +28,7 @@ pub struct Network<'p> {
     old_row: Vec<f64>,
 }
 
-/// The Fiedler vector and the energy Σ w (vₚ − v_q)² of each station's links.
+/// The Fiedler vector and the energy Σ w·(vᵢ − vⱼ)² of each station's links.
 #[derive(Debug, Clone)]
 struct Fiedler {
     vector: Vec<f64>,

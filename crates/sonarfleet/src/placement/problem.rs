@@ -59,12 +59,15 @@ pub struct PlacementProblem {
 /// precision: what the inner loops of the solvers stream through.
 ///
 /// Rows are dense. With a detector whose probability never falls below its
-/// false-alarm probability, distant cells add up: on the instances of this
-/// project dropping what lies below 0.01 would misjudge `J_d` by up to a hundredth.
+/// false-alarm probability, distant cells add up: with 40 vehicles on 30 × 30
+/// cells, leaving out probabilities below 0.01 lowered `J_d` of random and of
+/// compact layouts by a tenth to a third.
 /// Range limits what is looked at on the targets' side: cells whose share of the
 /// prior is below [`NEGLIGIBLE_SHARE`] are left out.
 #[derive(Debug, Clone)]
 struct SearchTable {
+    /// The targets that count.
+    targets: Vec<CellId>,
     /// Targets per row, filled up with targets of weight 0 to a whole number of [`LANES`].
     width: usize,
     /// [sonar, target]
@@ -218,6 +221,11 @@ impl PlacementProblem {
         algebraic_connectivity(&weights, stations.len())
     }
 
+    /// The targets that count, in the order of the rows of [`Self::miss`].
+    pub(super) fn targets(&self) -> &[CellId] {
+        &self.search.targets
+    }
+
     /// Probabilities that a sonar in `cell` misses each target that counts.
     pub(super) fn miss(&self, cell: CellId) -> &[f32] {
         let width = self.search.width;
@@ -240,21 +248,22 @@ impl SearchTable {
         let cells = input.grid.cell_count();
         let prior = input.prior.values();
         let least = NEGLIGIBLE_SHARE * input.prior.total();
-        let targets: Vec<usize> = (0..cells).filter(|&target| prior[target] > least).collect();
+        let targets: Vec<CellId> =
+            input.grid.cells().filter(|target| prior[target.0] > least).collect();
         let width = targets.len().next_multiple_of(LANES);
         let mut miss = vec![0.0; cells * width];
         for (row, probabilities) in miss.chunks_exact_mut(width).zip(detection.chunks_exact(cells))
         {
             for (miss, &target) in row.iter_mut().zip(&targets) {
-                *miss = (1.0 - probabilities[target]) as f32;
+                *miss = (1.0 - probabilities[target.0]) as f32;
             }
         }
         let missed_by_fixed: Vec<f64> = targets
             .iter()
-            .map(|&target| {
+            .map(|target| {
                 let fixed = input.fixed_sensors.iter();
-                prior[target]
-                    * fixed.map(|cell| 1.0 - detection[cell.0 * cells + target]).product::<f64>()
+                prior[target.0]
+                    * fixed.map(|cell| 1.0 - detection[cell.0 * cells + target.0]).product::<f64>()
             })
             .collect();
         let total: f64 = missed_by_fixed.iter().sum();
@@ -262,8 +271,8 @@ impl SearchTable {
         for (residual, missed) in residual.iter_mut().zip(&missed_by_fixed) {
             *residual = *missed as f32;
         }
-        let expected: f64 = targets.iter().map(|&target| prior[target]).sum();
-        Self { width, miss, residual, total, fixed_utility: expected - total }
+        let expected: f64 = targets.iter().map(|target| prior[target.0]).sum();
+        Self { targets, width, miss, residual, total, fixed_utility: expected - total }
     }
 }
 

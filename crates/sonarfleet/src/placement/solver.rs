@@ -59,7 +59,7 @@ impl Placement {
             history.retain(|&(_, utility)| utility < evaluation.detection_utility);
             history.push((evaluations, evaluation.detection_utility));
         }
-        let upper_bound = bound::upper_bound(problem, &cells);
+        let upper_bound = bound::upper_bound(problem);
         Self { method, cells, evaluation, upper_bound, evaluations, history }
     }
 }

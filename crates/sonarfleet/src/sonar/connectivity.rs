@@ -1,7 +1,7 @@
 //! The communication graph's algebraic connectivity, λ₂, and cheaper tests of
 //! whether it reaches a threshold.
 
-use faer::{Mat, Side};
+use super::eigenvalue::symmetric_eigenvalue;
 
 /// Algebraic connectivity of a graph: the second smallest eigenvalue λ₂ of its
 /// Laplacian L = D − W (section 3.2 of the paper; Fiedler 1973,
@@ -11,27 +11,18 @@ use faer::{Mat, Side};
 /// `weights` are symmetric, [vertex, vertex]; their diagonal is not looked at.
 ///
 /// # Panics
-/// Where `weights` is not `vertices` × `vertices`, or holds NaN.
+/// Where `weights` is not `vertices` × `vertices`.
 pub fn algebraic_connectivity(weights: &[f64], vertices: usize) -> f64 {
     assert_eq!(weights.len(), vertices * vertices, "weights must be [vertex, vertex]");
     if vertices < 2 {
         return f64::INFINITY;
     }
-    let mut laplacian =
-        Mat::from_fn(
-            vertices,
-            vertices,
-            |i, j| if i == j { 0.0 } else { -weights[i * vertices + j] },
-        );
-    for i in 0..vertices {
-        let row = &weights[i * vertices..(i + 1) * vertices];
-        laplacian[(i, i)] = row.iter().sum::<f64>() - row[i];
+    let mut laplacian: Vec<f64> = weights.iter().map(|weight| -weight).collect();
+    for (i, row) in weights.chunks_exact(vertices).enumerate() {
+        laplacian[i * vertices + i] = row.iter().sum::<f64>() - row[i];
     }
-    let eigenvalues = laplacian
-        .self_adjoint_eigenvalues(Side::Lower)
-        .expect("the QR iteration converges on every finite symmetric matrix");
     // L is positive semidefinite: anything below 0 is rounding.
-    eigenvalues[1].max(0.0)
+    symmetric_eigenvalue(&mut laplacian, vertices, 1).max(0.0)
 }
 
 /// Cholesky factorisation of L − τI + (τ/n + σ)·11ᵀ, which is positive definite

@@ -33,7 +33,7 @@ impl FalseAlarmProbability {
 /// How the probability of detection depends on the signal-to-noise ratio.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DetectionModel {
-    /// The paper's Eq. (4): the test statistic is Gaussian and a signal moves its
+    /// The paper's Equation (4): the test statistic is Gaussian and a signal moves its
     /// mean by √(2·snr) standard deviations (a known signal in white noise; Kay,
     /// *Detection Theory*, 1998, section 4.3). Never below the false-alarm probability.
     MeanShift(FalseAlarmProbability),
@@ -62,7 +62,7 @@ impl DetectionModel {
     }
 }
 
-/// Eq. (4), with Q⁻¹(`P_FA`) given.
+/// Equation (4), with Q⁻¹(`P_FA`) given.
 fn mean_shift(detection_level: f64, snr_db: f64) -> f64 {
     tail_probability(detection_level - (2.0 * power_ratio(snr_db)).sqrt()) // Eq. (4)
 }
@@ -81,7 +81,7 @@ pub struct PassiveSonar {
     pub noise_level_db: NoiseLevel,
     /// Directivity index of the sonar, DI, dB.
     pub directivity_index_db: f64,
-    /// What the paper's Eq. (3) leaves out, dB: taken off the signal-to-noise
+    /// What the paper's Equation (3) leaves out, dB: taken off the signal-to-noise
     /// ratio before the detection model sees it; 0 is the paper's equation.
     pub detection_threshold_db: f64,
     /// From signal-to-noise ratio to probability.

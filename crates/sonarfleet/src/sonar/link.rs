@@ -12,7 +12,7 @@ use crate::grid::CellId;
 /// How the success of a packet depends on the signal-to-noise ratio (per bit).
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkModel {
-    /// Coherent binary phase-shift keying in white Gaussian noise, Eq. (8)
+    /// Coherent binary phase-shift keying in white Gaussian noise, Equation (8)
     /// (Proakis, *Digital Communications*, 2001, section 5.2).
     CoherentBpsk {
         /// Packet length L, bits.

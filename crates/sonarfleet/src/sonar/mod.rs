@@ -2,6 +2,7 @@
 //! (Eqs. 3–6 of the paper), how well the vehicles hear each other (Eqs. 7–9),
 //! and where targets are expected.
 
+mod eigenvalue;
 mod error;
 
 pub mod connectivity;

@@ -3,7 +3,7 @@
 //! `P_T` of a cell is the expected number of targets in it: for the rare targets
 //! of the paper the probability that one is there. It is not a distribution over
 //! the cells (the paper's sums to about 38), and it needs no ceiling of 1:
-//! Eq. (6) is then the expected number of targets detected, which is additive
+//! Equation (6) is then the expected number of targets detected, which is additive
 //! whether or not targets come together.
 
 use super::SonarError;

@@ -1,0 +1,4 @@
+//! Integration tests of the system.
+
+mod placement;
+mod placement_instance;
