@@ -85,17 +85,17 @@ impl NavigationInstance {
         )?;
         super::vehicle::positive("`horizon_h` of the instance", parameters.horizon_h)?;
 
-        let forecast = match archive.contains("u_fc") {
-            true => Some(currents(&archive, "u_fc", "v_fc")?),
-            false => None,
+        let forecast =
+            if archive.contains("u_fc") { Some(currents(&archive, "u_fc", "v_fc")?) } else { None };
+        let (starts, goals) = if archive.contains("starts40") {
+            (positions(&archive, "starts40")?, positions(&archive, "goals40")?)
+        } else {
+            (Vec::new(), Vec::new())
         };
-        let (starts, goals) = match archive.contains("starts40") {
-            true => (positions(&archive, "starts40")?, positions(&archive, "goals40")?),
-            false => (Vec::new(), Vec::new()),
-        };
-        let origin_deg = match archive.contains("lon0") {
-            true => Some((scalar(&archive, "lon0")?, scalar(&archive, "lat0")?)),
-            false => None,
+        let origin_deg = if archive.contains("lon0") {
+            Some((scalar(&archive, "lon0")?, scalar(&archive, "lat0")?))
+        } else {
+            None
         };
         Ok(Self {
             currents: currents(&archive, "u", "v")?,

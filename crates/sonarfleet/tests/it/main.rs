@@ -1,0 +1,5 @@
+//! Integration tests of the system.
+
+mod assignment;
+mod navigation;
+mod navigation_instance;
