@@ -38,7 +38,17 @@ fn the_matrix_and_its_assignment_agree_with_the_reference() {
         .column_of_row
         .iter()
         .enumerate()
-        .map(|(row, column)| best_h[row * 40 + column.unwrap()])
+        .map(|(row, column)| {
+            let column = column.unwrap();
+            let best_h = best_h[row * 40 + column];
+            // The reference does not reach some posts that can be reached along the wall.
+            if best_h.is_finite() {
+                return best_h;
+            }
+            let route = plan.follow(column, instance.starts[row], 0.0, f64::INFINITY);
+            assert!(route.arrived());
+            route.duration_h()
+        })
         .sum();
     let regret = truly / lap_sum - 1.0;
     println!("median error {median:.4}, regret {regret:.5}");
