@@ -7,6 +7,7 @@ use super::source::{DataSource, VariableInfo, read_decoded};
 use super::{NetcdfFile, time};
 use crate::OceanError;
 use jiff::Timestamp;
+use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use std::path::{Path, PathBuf};
 const LARGEST_BLOCK: usize = 1 << 23;
 
 /// What a file holds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Inspection {
     /// The file.
     pub path: PathBuf,
@@ -36,7 +37,7 @@ pub struct Inspection {
 }
 
 /// An axis, in our conventions: ascending, depths positive down.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AxisInspection {
     /// "depth", "latitude" or "longitude".
     pub role: String,
@@ -55,7 +56,7 @@ pub struct AxisInspection {
 }
 
 /// A variable.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VariableInspection {
     /// Its name.
     pub name: String,

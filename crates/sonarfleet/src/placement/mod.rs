@@ -1,1 +1,24 @@
-//! placement
+//! Where the fleet should be: the placement problem, its incremental evaluation,
+//! and the methods that solve it.
+
+mod error;
+mod evaluation;
+mod method;
+
+pub mod annealing;
+pub mod bound;
+pub mod compact;
+pub mod coverage;
+pub mod greedy;
+pub mod instance;
+pub mod local_search;
+pub mod network;
+pub mod problem;
+pub mod random;
+pub mod solver;
+
+pub use error::PlacementError;
+pub use evaluation::Evaluation;
+pub use method::{Method, UnknownMethod};
+pub use problem::{PlacementInput, PlacementProblem};
+pub use solver::{Budget, Placement, Solver};

@@ -1,6 +1,20 @@
 //! What a run writes down: plain data, one [`EpochRecord`] per epoch, from which
 //! every figure and the report are drawn.
 
+mod checkpoint;
+mod directory;
+mod epoch_file;
+mod error;
+mod provenance;
+mod write;
+
+pub use checkpoint::Checkpoint;
+pub use directory::RunDirectory;
+pub use epoch_file::write_epoch;
+pub use error::RecordError;
+pub use provenance::{InputFile, Provenance};
+pub use write::write_run;
+
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +53,32 @@ pub struct RunRecord {
     pub epochs: Vec<EpochRecord>,
 }
 
+impl RunRecord {
+    /// Where a vehicle went over all epochs.
+    pub fn track(&self, vehicle: usize) -> Vec<TrackPoint> {
+        let mut track: Vec<TrackPoint> = Vec::new();
+        for epoch in &self.epochs {
+            let points = &epoch.routes[vehicle].track;
+            // An epoch starts where the one before ended.
+            let from = points.partition_point(|point| {
+                track.last().is_some_and(|last| point.time_h <= last.time_h)
+            });
+            track.extend(&points[from..]);
+        }
+        track
+    }
+
+    /// How a vehicle stands at the end of the run, in words.
+    pub fn status(&self, vehicle: usize) -> &str {
+        match self.epochs.last().map(|epoch| &epoch.routes[vehicle]) {
+            None => "not under way",
+            Some(RouteRecord { arrived: true, .. }) => "on its post",
+            Some(RouteRecord { failure: Some(reason), .. }) => reason,
+            Some(_) => "under way",
+        }
+    }
+}
+
 /// One placement–reconfiguration cycle (section 5.4 of the paper).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EpochRecord {
@@ -72,6 +112,8 @@ pub struct EpochRecord {
     pub routes: Vec<RouteRecord>,
     /// The numbers of the epoch.
     pub metrics: EpochMetrics,
+    /// Wall-clock seconds by stage, in order.
+    pub seconds: Vec<(String, f64)>,
 }
 
 /// Sound speed over the region on a regular grid of points.
@@ -162,13 +204,11 @@ pub struct EpochMetrics {
     pub evaluations: u64,
     /// Best feasible `J_d` against evaluations.
     pub placement_history: Vec<(u64, f64)>,
-    /// Wall-clock seconds by stage, in order.
-    pub seconds: Vec<(String, f64)>,
 }
 
 /// How the transmission-loss table of an epoch was made, and how far it is from
 /// `fine` settings on a sample of sources.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LossTableMetrics {
     /// Beams per slice.
     pub beams: usize,
@@ -182,4 +222,18 @@ pub struct LossTableMetrics {
     pub median_error_db: f64,
     /// 90th percentile of the absolute difference from `fine`, dB; NaN if not sampled.
     pub p90_error_db: f64,
+}
+
+impl LossTableMetrics {
+    /// Of a table that was made elsewhere: nothing is known.
+    pub const fn from_file() -> Self {
+        Self {
+            beams: 0,
+            bearings: 0,
+            range_m: f64::NAN,
+            sampled_sources: 0,
+            median_error_db: f64::NAN,
+            p90_error_db: f64::NAN,
+        }
+    }
 }

@@ -1,0 +1,108 @@
+use crate::error::{AcousticsError, within};
+
+/// A launch direction and the share of the fan that it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Launch angle below the horizontal, radians.
+    pub angle_rad: f64,
+    /// Angle between it and its neighbours, Δα, radians.
+    pub width_rad: f64,
+}
+
+/// The launch directions of a source.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LaunchFan {
+    beams: Vec<Beam>,
+}
+
+impl LaunchFan {
+    /// Beams at equal distances from one angle to another, degrees, both ends
+    /// included.
+    ///
+    /// # Errors
+    /// If the angles do not ascend within ±90° or there are fewer than two beams.
+    pub fn uniform(first_deg: f64, last_deg: f64, count: usize) -> Result<Self, AcousticsError> {
+        within("the number of beams", "at least 2", count as f64, count > 1)?;
+        within("the first launch angle", "at least -90", first_deg, first_deg >= -90.0)?;
+        within(
+            "the last launch angle",
+            "above the first and at most 90",
+            last_deg,
+            last_deg > first_deg && last_deg <= 90.0,
+        )?;
+        let width_rad = ((last_deg - first_deg) / (count - 1) as f64).to_radians();
+        let beam = |index: usize| Beam {
+            angle_rad: first_deg.to_radians() + index as f64 * width_rad,
+            width_rad,
+        };
+        Ok(Self { beams: (0..count).map(beam).collect() })
+    }
+
+    /// A fan symmetric about the horizontal, denser at shallow angles: for each
+    /// class, how far up and down it reaches, in degrees, and how many beams lie
+    /// in it (half above, half below). Every beam stands in the middle of its
+    /// share of the class.
+    ///
+    /// # Errors
+    /// If there is no class, limits do not ascend within 90°, or a class has an
+    /// odd or zero number of beams.
+    pub fn graded(classes: &[(f64, usize)]) -> Result<Self, AcousticsError> {
+        within(
+            "the number of beam classes",
+            "at least 1",
+            classes.len() as f64,
+            !classes.is_empty(),
+        )?;
+        let mut half = Vec::new();
+        let mut inner_deg = 0.0;
+        for &(limit_deg, count) in classes {
+            within(
+                "the limit of a beam class",
+                "above the one before and at most 90",
+                limit_deg,
+                limit_deg > inner_deg && limit_deg <= 90.0,
+            )?;
+            within(
+                "the beams in a class",
+                "even and positive",
+                count as f64,
+                count > 0 && count % 2 == 0,
+            )?;
+            let width_rad = ((limit_deg - inner_deg) / (count / 2) as f64).to_radians();
+            half.extend((0..count / 2).map(|index| Beam {
+                angle_rad: inner_deg.to_radians() + (index as f64 + 0.5) * width_rad,
+                width_rad,
+            }));
+            inner_deg = limit_deg;
+        }
+        let upward = half.iter().rev().map(|beam| Beam { angle_rad: -beam.angle_rad, ..*beam });
+        Ok(Self { beams: upward.chain(half.iter().copied()).collect() })
+    }
+
+    /// The beams, from the uppermost to the lowest.
+    pub fn beams(&self) -> &[Beam] {
+        &self.beams
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_of_a_graded_fan_add_up_to_the_fan() {
+        let fan = LaunchFan::graded(&[(12.0, 40), (25.0, 26), (60.0, 14)]).unwrap();
+        assert_eq!(fan.beams().len(), 80);
+        let total: f64 = fan.beams().iter().map(|beam| beam.width_rad).sum();
+        assert!((total.to_degrees() - 120.0).abs() < 1e-9);
+        assert!(fan.beams().windows(2).all(|pair| pair[0].angle_rad < pair[1].angle_rad));
+    }
+
+    #[test]
+    fn bad_fans_are_refused() {
+        assert!(LaunchFan::uniform(-10.0, 10.0, 1).is_err());
+        assert!(LaunchFan::uniform(10.0, -10.0, 5).is_err());
+        assert!(LaunchFan::graded(&[(12.0, 3)]).is_err());
+        assert!(LaunchFan::graded(&[(12.0, 2), (10.0, 2)]).is_err());
+    }
+}

@@ -1,0 +1,6 @@
+//! Integration tests of the acoustics crate.
+
+mod analytic;
+mod bellhop_files;
+mod properties;
+mod reference;

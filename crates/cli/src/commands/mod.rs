@@ -1,0 +1,52 @@
+//! One file per command: each reads what was typed, makes one call, and prints.
+
+pub(crate) mod assign;
+pub(crate) mod check;
+pub(crate) mod init;
+pub(crate) mod ocean;
+pub(crate) mod place;
+pub(crate) mod route;
+pub(crate) mod run;
+pub(crate) mod tl;
+
+use anyhow::{Result, ensure};
+use serde::Serialize;
+use sonarfleet::scenario::Scenario;
+use std::path::Path;
+
+/// How to speak to the user.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Manner {
+    /// One JSON object on standard output.
+    pub(crate) json: bool,
+    /// Results and errors only.
+    pub(crate) quiet: bool,
+}
+
+impl Manner {
+    /// Whether progress and summaries are wanted.
+    pub(crate) const fn talkative(self) -> bool {
+        !self.json && !self.quiet
+    }
+}
+
+/// The scenario of a path, or the embedded one.
+fn scenario(path: Option<&Path>) -> Result<Scenario> {
+    Ok(match path {
+        Some(path) => Scenario::read(path)?,
+        None => Scenario::embedded(),
+    })
+}
+
+/// Prints one JSON object.
+fn print_json(object: &impl Serialize) -> Result<()> {
+    println!("{}", serde_json::to_string_pretty(object)?);
+    Ok(())
+}
+
+/// Refuses an epoch that the scenario does not have.
+fn check_epoch(scenario: &Scenario, epoch: usize) -> Result<()> {
+    let last = scenario.epochs.len() - 1;
+    ensure!(epoch <= last, "--epoch {epoch}: the scenario has epochs 0 to {last}");
+    Ok(())
+}

@@ -1,0 +1,20 @@
+//! Draws the figures and the report of a made-up run:
+//! `cargo run -p sonarfleet-report --example sample_report -- DIR`.
+
+#[path = "../tests/sample/mod.rs"]
+mod sample;
+
+use std::error::Error;
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let directory = PathBuf::from(std::env::args_os().nth(1).ok_or("usage: sample_report DIR")?);
+    let record = sample::record(sample::FULL);
+    for file in sonarfleet_report::write_figures(&record, &directory)? {
+        println!("{}", file.display());
+    }
+    let report = directory.join("report.html");
+    sonarfleet_report::write_report(&record, &report)?;
+    println!("{}", report.display());
+    Ok(())
+}

@@ -1,0 +1,130 @@
+//! The figures of a run, each as SVG and PNG.
+
+mod map;
+mod placement;
+mod priors;
+mod routes;
+mod sound_speed;
+
+use crate::canvas::{self, Align, Canvas};
+use crate::error::{ReportError, Result};
+use crate::plot::REMARK;
+use crate::{atomic, ticks, valid};
+use sonarfleet::record::{EpochRecord, RunRecord};
+use std::path::{Path, PathBuf};
+
+/// Width of a figure over two columns of a journal, in points (184 mm).
+const WIDTH: f64 = 522.0;
+/// Epochs on one figure; further epochs continue on further figures.
+const EPOCHS_PER_FIGURE: usize = 4;
+
+/// Draws the figures of a run into a directory, which is made if it is missing,
+/// and returns the files written, an SVG and a PNG (288 dots per inch) for each:
+///
+/// - `sound_speed`: fields of sound speed, as Fig. 2 of the paper;
+/// - `placement_epoch_K`, one per epoch: transmission loss, prior, and cumulative
+///   detection of a random and of the target layout, as Fig. 3;
+/// - `priors`: the target priors of the epochs, as Fig. 9;
+/// - `routes`: layouts and paths over the current, as Fig. 10.
+///
+/// Figures of all epochs hold four of them; further epochs continue on
+/// `sound_speed_2` and so on. Files are whole or not there.
+///
+/// # Errors
+///
+/// A record whose arrays do not fit its grids, and files that cannot be written.
+pub fn write_figures(record: &RunRecord, directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    let directory = directory.as_ref();
+    valid::check(record)?;
+    std::fs::create_dir_all(directory)
+        .map_err(|source| ReportError::Write { path: directory.to_owned(), source })?;
+
+    let mut files = Vec::new();
+    for (page, epochs) in record.epochs.chunks(EPOCHS_PER_FIGURE).enumerate() {
+        let suffix = if page == 0 { String::new() } else { format!("_{}", page + 1) };
+        let mut save = |name: &str, canvas: &Canvas| {
+            write(canvas, &directory.join(format!("{name}{suffix}")), &mut files)
+        };
+        save("sound_speed", &sound_speed::draw(record, epochs))?;
+        save("priors", &priors::draw(record, epochs))?;
+        save("routes", &routes::draw(record, epochs))?;
+    }
+    for epoch in &record.epochs {
+        let name = directory.join(format!("placement_epoch_{}", epoch.epoch));
+        write(&placement::draw(record, epoch), &name, &mut files)?;
+    }
+    Ok(files)
+}
+
+fn write(canvas: &Canvas, name: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |reason| ReportError::Draw { path, reason }
+    };
+    let svg = name.with_extension("svg");
+    atomic::write(&svg, canvas::to_svg(canvas).map_err(failed(&svg))?.as_bytes())?;
+    let png = name.with_extension("png");
+    atomic::write(&png, &canvas::to_png(canvas).map_err(failed(&png))?)?;
+    files.extend([svg, png]);
+    Ok(())
+}
+
+/// One line at the foot: where and of what this is.
+fn footer(canvas: &mut Canvas, record: &RunRecord, y: f64) {
+    let [west, east, south, north] = region_deg(record);
+    let degrees = |value| ticks::number(value, 2);
+    let text = format!(
+        "{} · {}–{}° E, {}–{}° N · {} · sonarfleet {} · seed {}",
+        record.name,
+        degrees(west),
+        degrees(east),
+        degrees(south),
+        degrees(north),
+        record.ocean_source,
+        record.version,
+        record.seed
+    );
+    canvas.text([WIDTH - 6.0, y], &shortened(&text, 165), Align::End, REMARK);
+}
+
+/// West, east, south and north edge of the region in degrees: half a cell beyond
+/// the outermost centres.
+pub(crate) fn region_deg(record: &RunRecord) -> [f64; 4] {
+    let edges = |values: &[f64], count: usize| {
+        let (low, high) = ticks::range(values.iter().copied()).unwrap_or((f64::NAN, f64::NAN));
+        let half = (high - low) / (2 * count.saturating_sub(1).max(1)) as f64;
+        [low - half, high + half]
+    };
+    let [west, east] = edges(&record.cell_longitude_deg, record.grid.columns);
+    let [south, north] = edges(&record.cell_latitude_deg, record.grid.rows);
+    [west, east, south, north]
+}
+
+fn shortened(text: &str, limit: usize) -> String {
+    if text.chars().count() <= limit {
+        return text.to_owned();
+    }
+    text.chars().take(limit - 1).chain(['…']).collect()
+}
+
+/// "Epoch 1 · 2025-10-09 06:00 UTC", from an ISO 8601 time.
+fn epoch_title(epoch: &EpochRecord) -> String {
+    format!("Epoch {} · {}", epoch.epoch, readable_time(&epoch.time))
+}
+
+/// An ISO 8601 time in UTC without its seconds; other texts as they are.
+pub(crate) fn readable_time(time: &str) -> String {
+    let (date, clock) = time.split_once('T').unwrap_or((time, ""));
+    let minutes = clock.split(':').take(2).collect::<Vec<_>>();
+    match minutes[..] {
+        [hour, minute] if hour.len() == 2 && minute.len() >= 2 && minute.is_char_boundary(2) => {
+            format!("{date} {hour}:{} UTC", &minute[..2])
+        }
+        _ => shortened(time, 32),
+    }
+}
+
+/// "(a)", "(b)", …
+fn letter(index: usize) -> String {
+    format!("({})", char::from(b'a' + (index % 26) as u8))
+}

@@ -1,0 +1,62 @@
+//! Placement methods by name.
+
+use super::annealing::Annealing;
+use super::greedy::{ConnectedGreedy, Greedy};
+use super::local_search::LocalSearch;
+use super::random::RandomSearch;
+use super::Solver;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// A placement method that needs nothing but the problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The best of random layouts.
+    Random,
+    /// The best marginal gain first, whatever the links.
+    Greedy,
+    /// The best marginal gain first among cells that keep the graph connected.
+    ConnectedGreedy,
+    /// Swaps from connected greedy while they gain.
+    LocalSearch,
+    /// Simulated annealing with swaps.
+    Annealing,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 5] =
+        [Self::Random, Self::Greedy, Self::ConnectedGreedy, Self::LocalSearch, Self::Annealing];
+
+    /// The method's solver.
+    pub fn solver(self) -> Box<dyn Solver> {
+        match self {
+            Self::Random => Box::new(RandomSearch),
+            Self::Greedy => Box::new(Greedy),
+            Self::ConnectedGreedy => Box::new(ConnectedGreedy),
+            Self::LocalSearch => Box::new(LocalSearch),
+            Self::Annealing => Box::new(Annealing::default()),
+        }
+    }
+}
+
+/// There is no method of that name.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{found}` is no placement method; there are {known}")]
+pub struct UnknownMethod {
+    /// The name given.
+    pub found: String,
+    /// All names.
+    pub known: String,
+}
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        Self::ALL.into_iter().find(|method| method.solver().name() == name).ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|method| method.solver().name()).collect();
+            UnknownMethod { found: name.to_owned(), known: names.join(", ") }
+        })
+    }
+}

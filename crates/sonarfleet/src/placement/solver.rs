@@ -1,0 +1,86 @@
+//! What every placement method takes and gives.
+
+use super::{Evaluation, PlacementProblem, bound};
+use crate::grid::CellId;
+use std::time::Instant;
+
+/// How long a method may search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Budget {
+    /// So many proposals, each a layout or a change of one that is evaluated:
+    /// reproducible to the bit.
+    Evaluations(u64),
+    /// So many seconds of wall-clock time: **not** reproducible.
+    Seconds(f64),
+}
+
+/// A method that places the fleet.
+pub trait Solver: Send + Sync {
+    /// Its name, as on the command line.
+    fn name(&self) -> &'static str;
+
+    /// The best layout it finds: feasible before infeasible, then by `J_d`. A
+    /// method that constructs one layout takes what that costs, whatever the
+    /// budget. The same seed gives the same bits with any number of threads
+    /// unless the budget is in seconds.
+    fn solve(&self, problem: &PlacementProblem, budget: Budget, seed: u64) -> Placement;
+}
+
+/// What a method found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// Name of the method.
+    pub method: &'static str,
+    /// The vehicles' cells, ascending.
+    pub cells: Vec<CellId>,
+    /// Full evaluation of them.
+    pub evaluation: Evaluation,
+    /// No feasible layout has a higher `J_d` than this.
+    pub upper_bound: f64,
+    /// Proposals evaluated.
+    pub evaluations: u64,
+    /// Best feasible `J_d` against proposals evaluated; empty while nothing
+    /// feasible was found.
+    pub history: Vec<(u64, f64)>,
+}
+
+impl Placement {
+    pub(super) fn new(
+        method: &'static str,
+        problem: &PlacementProblem,
+        mut cells: Vec<CellId>,
+        evaluations: u64,
+        mut history: Vec<(u64, f64)>,
+    ) -> Self {
+        cells.sort_unstable();
+        let evaluation = problem.evaluate(&cells);
+        // The curve ends with the full evaluation.
+        if evaluation.feasible {
+            history.retain(|&(_, utility)| utility < evaluation.detection_utility);
+            history.push((evaluations, evaluation.detection_utility));
+        }
+        let upper_bound = bound::upper_bound(problem, &cells);
+        Self { method, cells, evaluation, upper_bound, evaluations, history }
+    }
+}
+
+/// How much of a budget is used up.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meter {
+    budget: Budget,
+    start: Instant,
+}
+
+impl Meter {
+    pub(super) fn new(budget: Budget) -> Self {
+        Self { budget, start: Instant::now() }
+    }
+
+    /// The used share of the budget after so many evaluations: 1 or more at its end.
+    pub(super) fn used(&self, evaluations: u64) -> f64 {
+        match self.budget {
+            Budget::Evaluations(limit) => evaluations as f64 / limit.max(1) as f64,
+            Budget::Seconds(limit) => self.start.elapsed().as_secs_f64() / limit.max(1e-9),
+        }
+    }
+}
