@@ -18,8 +18,8 @@ const REGION_SIDE_KM: f64 = 30.9;
 /// `goal_radius_km`, `transit_margin_km`, `horizon_h` and, where the region is not
 /// [0, 30.9]² km, `region_km`: [width, height]. Each of these groups may be absent:
 /// `u_fc`, `v_fc`, a forecast of the current; `starts40`, `goals40` [count, 2] km,
-/// the fleet and its posts; `pair_start`, `pair_goal` [count, 2] km and `pair_t0`
-/// [count] h, single trips; `lon0`, `lat0`, degrees, where x = y = 0.
+/// the fleet and its posts; `pair_start`, `pair_goal` [count, 2] km and
+/// `pair_t0` \[count\] h, single trips; `lon0`, `lat0`, degrees, where x = y = 0.
 #[derive(Debug, Clone)]
 pub struct NavigationInstance {
     /// The current.
