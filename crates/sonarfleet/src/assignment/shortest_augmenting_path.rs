@@ -276,7 +276,7 @@ impl<'a> Solver<'a> {
                 *parent = if nearer { row } else { *parent };
             }
             let least = least(&key);
-            let nearest = || (0..key.len()).filter(|&column| key[column] == least);
+            let nearest = || (0..key.len()).filter(|&column| key[column] <= least);
             if least == f64::INFINITY {
                 let columns: Vec<usize> = settled.iter().map(|&(column, _)| column).collect();
                 let holders = columns.iter().filter_map(|&column| self.row_of_column[column]);

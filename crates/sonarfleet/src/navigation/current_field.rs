@@ -104,7 +104,7 @@ impl CurrentField {
             }
         }
 
-        let mut velocity_m_s: Vec<[f64; 2]> =
+        let velocity_m_s: Vec<[f64; 2]> =
             eastward_m_s.iter().zip(northward_m_s).map(|(&u, &v)| [u, v]).collect();
         let mut land = vec![false; nodes];
         for (index, [u, v]) in velocity_m_s.iter().enumerate() {
@@ -119,19 +119,7 @@ impl CurrentField {
             }
             land[index % nodes] |= u.is_nan() || v.is_nan();
         }
-        if land.iter().all(|&dry| dry) {
-            return Err(NavigationError::NoWater { nodes, times: time.len() });
-        }
-        if land.contains(&true) {
-            for (index, velocity) in velocity_m_s.iter_mut().enumerate() {
-                if land[index % nodes] {
-                    *velocity = [0.0; 2];
-                }
-            }
-        } else {
-            land.clear();
-        }
-        Ok(Self { east, north, time, velocity_m_s, land })
+        Self { east, north, time, velocity_m_s, land: Vec::new() }.with_land(land)
     }
 
     /// A current that is the same everywhere and always, m/s.
@@ -140,6 +128,44 @@ impl CurrentField {
     /// As [`CurrentField::new`].
     pub fn uniform(eastward_m_s: f64, northward_m_s: f64) -> Result<Self, NavigationError> {
         Self::new(vec![0.0], vec![0.0], vec![0.0], &[eastward_m_s], &[northward_m_s])
+    }
+
+    /// The field with further nodes made impassable, for example those over water
+    /// that is shallower than the vehicles' depth.
+    ///
+    /// # Errors
+    /// No water is left.
+    pub fn closed_where(
+        mut self,
+        closed: impl Fn(Position) -> bool,
+    ) -> Result<Self, NavigationError> {
+        let columns = self.east.len();
+        let nodes = columns * self.north.len();
+        let mut land = std::mem::take(&mut self.land);
+        land.resize(nodes, false);
+        for (node, dry) in land.iter_mut().enumerate() {
+            let (east_m, north_m) =
+                (self.east.nodes[node % columns], self.north.nodes[node / columns]);
+            *dry |= closed(Position::new(east_m, north_m));
+        }
+        self.with_land(land)
+    }
+
+    /// The field with this land, [north, east].
+    fn with_land(mut self, land: Vec<bool>) -> Result<Self, NavigationError> {
+        let nodes = land.len();
+        if land.iter().all(|&dry| dry) {
+            return Err(NavigationError::NoWater { nodes, times: self.time.len() });
+        }
+        if land.contains(&true) {
+            for (index, velocity) in self.velocity_m_s.iter_mut().enumerate() {
+                if land[index % nodes] {
+                    *velocity = [0.0; 2];
+                }
+            }
+            self.land = land;
+        }
+        Ok(self)
     }
 
     /// Whether a point is land.
@@ -253,6 +279,18 @@ mod tests {
         assert!(!field.is_land(Position::new(400.0, 100.0)));
         let near = field.velocity_m_s(Position::new(500.0, 0.0), 0.0);
         assert!((near[0] - 0.2).abs() < 1e-12, "only the wet corner counts: {near:?}");
+    }
+
+    #[test]
+    fn nodes_can_be_closed() {
+        let shoal = |node: Position| node.east_m > 2_000.0 && node.north_m < 500.0;
+        let closed = field().closed_where(shoal).unwrap();
+        assert!(closed.is_land(Position::new(2_500.0, 0.0)));
+        assert!(!closed.is_land(Position::new(2_500.0, 900.0)));
+        assert!(matches!(
+            field().closed_where(|_| true),
+            Err(NavigationError::NoWater { nodes: 6, times: 2 })
+        ));
     }
 
     #[test]

@@ -15,8 +15,9 @@ const SECONDS_PER_HOUR: f64 = 3600.0;
 impl CurrentField {
     /// The current of a forecast at the vehicles' depth, resampled over a transit
     /// domain on nodes at most 2 km apart, at the forecast's times counted in hours
-    /// since `run_start`. Land, and water shallower than `depth_m`, is impassable;
-    /// beyond the forecast's first and last time its nearest state holds.
+    /// since `run_start`. Impassable are land and what lies beyond the forecast's grid
+    /// (for shoals see [`CurrentField::closed_where`]); beyond the forecast's first and
+    /// last time its nearest state holds.
     ///
     /// # Errors
     /// As [`CurrentField::new`]: no state, implausible speeds, no water at this depth.

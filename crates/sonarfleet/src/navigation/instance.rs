@@ -18,8 +18,8 @@ const REGION_SIDE_KM: f64 = 30.9;
 /// `goal_radius_km`, `transit_margin_km`, `horizon_h` and, where the region is not
 /// [0, 30.9]² km, `region_km`: [width, height]. Each of these groups may be absent:
 /// `u_fc`, `v_fc`, a forecast of the current; `starts40`, `goals40` [count, 2] km,
-/// the fleet and its posts; `pair_start`, `pair_goal` [count, 2] km and `pair_t0`
-/// [count] h, single trips; `lon0`, `lat0`, degrees, where x = y = 0.
+/// the fleet and its posts; `pair_start`, `pair_goal` [count, 2] km and
+/// `pair_t0` \[count\] h, single trips; `lon0`, `lat0`, degrees, where x = y = 0.
 #[derive(Debug, Clone)]
 pub struct NavigationInstance {
     /// The current.
@@ -85,17 +85,17 @@ impl NavigationInstance {
         )?;
         super::vehicle::positive("`horizon_h` of the instance", parameters.horizon_h)?;
 
-        let forecast = match archive.contains("u_fc") {
-            true => Some(currents(&archive, "u_fc", "v_fc")?),
-            false => None,
+        let forecast =
+            if archive.contains("u_fc") { Some(currents(&archive, "u_fc", "v_fc")?) } else { None };
+        let (starts, goals) = if archive.contains("starts40") {
+            (positions(&archive, "starts40")?, positions(&archive, "goals40")?)
+        } else {
+            (Vec::new(), Vec::new())
         };
-        let (starts, goals) = match archive.contains("starts40") {
-            true => (positions(&archive, "starts40")?, positions(&archive, "goals40")?),
-            false => (Vec::new(), Vec::new()),
-        };
-        let origin_deg = match archive.contains("lon0") {
-            true => Some((scalar(&archive, "lon0")?, scalar(&archive, "lat0")?)),
-            false => None,
+        let origin_deg = if archive.contains("lon0") {
+            Some((scalar(&archive, "lon0")?, scalar(&archive, "lat0")?))
+        } else {
+            None
         };
         Ok(Self {
             currents: currents(&archive, "u", "v")?,

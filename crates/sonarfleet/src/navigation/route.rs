@@ -43,11 +43,17 @@ pub struct Route {
 
 impl Route {
     /// The last point.
+    ///
+    /// # Panics
+    /// If someone emptied the points.
     pub fn last(&self) -> &RoutePoint {
         self.points.last().expect("a route holds at least its start")
     }
 
     /// From the first to the last point, hours.
+    ///
+    /// # Panics
+    /// As [`Route::last`].
     pub fn duration_h(&self) -> f64 {
         self.last().time_h - self.points[0].time_h
     }

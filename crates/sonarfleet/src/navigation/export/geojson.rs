@@ -1,4 +1,4 @@
-//! GeoJSON, RFC 7946.
+//! `GeoJSON`, RFC 7946.
 
 use super::Line;
 use serde_json::{Value, json};

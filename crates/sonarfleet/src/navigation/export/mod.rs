@@ -27,7 +27,7 @@ pub struct NamedRoute<'a> {
 /// A file format for routes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteFormat {
-    /// GeoJSON (RFC 7946): a line per route, times in its properties.
+    /// `GeoJSON` (RFC 7946): a line per route, times in its properties.
     GeoJson,
     /// KML 2.2: a track with times per route.
     Kml,

@@ -64,7 +64,7 @@ impl Feet {
         self.stencils.clear();
         let clear = grid.clear_of_wall();
         let inside = |x: f32, y: f32| {
-            (x >= clear.west) & (x <= clear.east) & (y >= clear.south) & (y <= clear.north)
+            x >= clear.west && x <= clear.east && y >= clear.south && y <= clear.north
         };
         for (&x, &y) in self.x.iter().zip(&self.y) {
             if inside(x, y) && !aground(grid, land, (column, row), (x, y)) {
@@ -87,5 +87,5 @@ fn aground(
         return false;
     }
     let dry = |x: f32, y: f32| land[(y + 0.5) as usize * grid.columns + (x + 0.5) as usize];
-    dry(x, y) || dry((x + column as f32) / 2.0, (y + row as f32) / 2.0)
+    dry(x, y) || dry(x.midpoint(column as f32), y.midpoint(row as f32))
 }

@@ -80,12 +80,38 @@ impl TimeOptimalPlan<'_> {
             // Lost, but the less the better: near the wall this leads back.
             return self.lost_h + beyond_m / METRES_PER_LOST_HOUR;
         }
+        if self.runs_aground(from, foot) {
+            return self.lost_h;
+        }
         match self.value_function.grid.coordinates(foot) {
-            Some((x, y)) if !voyage.currents().is_land(foot) => {
+            Some((x, y)) => {
                 (step_h + self.value_function.at(goal, x, y, time_h + step_h)).min(self.lost_h)
             }
-            _ => self.lost_h,
+            None => self.lost_h,
         }
+    }
+
+    /// Whether a step crosses land, or ends closer to it than the clearance.
+    fn runs_aground(&self, from: Position, foot: Position) -> bool {
+        let currents = self.voyage.currents();
+        if !currents.has_land() {
+            return false;
+        }
+        let on_the_way = |quarter: i32| {
+            let fraction = f64::from(quarter) / 4.0;
+            currents.is_land(Position::new(
+                from.east_m + fraction * (foot.east_m - from.east_m),
+                from.north_m + fraction * (foot.north_m - from.north_m),
+            ))
+        };
+        let beside = |(east, north): (f64, f64)| {
+            currents.is_land(Position::new(
+                foot.east_m + east * WALL_CLEARANCE_M,
+                foot.north_m + north * WALL_CLEARANCE_M,
+            ))
+        };
+        (1..=4).any(on_the_way)
+            || [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].into_iter().any(beside)
     }
 }
 
