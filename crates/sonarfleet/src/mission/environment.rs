@@ -49,7 +49,7 @@ impl Environment {
             (read_table(path, &scenario.grid)?, LossTableMetrics::from_file())
         } else {
             let acoustics = Acoustics::of(scenario, theatre, &state)?;
-            (acoustics.table(scenario, progress)?, acoustics.metrics())
+            (acoustics.table(scenario, progress)?, acoustics.metrics(scenario))
         };
         let problem = PlacementProblem::new(&input(scenario, theatre, epoch, &loss))?;
         Ok(Self { state, loss, loss_metrics, problem })
@@ -165,12 +165,13 @@ impl Acoustics {
     }
 
     /// How a table of these acoustics is described in records.
-    fn metrics(&self) -> LossTableMetrics {
+    fn metrics(&self, scenario: &Scenario) -> LossTableMetrics {
         let numerics = self.settings.quality.numerics();
+        let diagonal_m = scenario.grid.width_m().hypot(scenario.grid.height_m());
         LossTableMetrics {
             beams: numerics.beam_count(),
             bearings: numerics.bearings,
-            range_m: self.settings.maximum_range_m,
+            range_m: self.settings.maximum_range_m.min(diagonal_m),
             ..LossTableMetrics::from_file()
         }
     }

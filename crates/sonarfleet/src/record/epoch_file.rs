@@ -148,13 +148,16 @@ fn fleet(file: &mut Dataset, epoch: &EpochRecord) {
 fn ragged(file: &mut Dataset, name: &str, tracks: &[&[TrackPoint]]) {
     let points = || tracks.iter().copied().flatten();
     let point = format!("{name}_point");
-    file.add_dimension(&point, points().count());
     file.add_variable(
         &format!("{name}_count"),
         &["vehicle"],
         Values::I32(tracks.iter().map(|track| track.len() as i32).collect()),
         &[Attribute::text("sample_dimension", &point)],
     );
+    if points().next().is_none() {
+        return; // NetCDF has no dimension of length 0; the counts say it all
+    }
+    file.add_dimension(&point, points().count());
     let mut add = |suffix: &str, unit: &str, value: fn(&TrackPoint) -> f64| {
         file.add_variable(
             &format!("{name}_{suffix}"),
