@@ -1,3 +1,7 @@
 //! The command line and the house, from outside.
 
 mod architecture;
+mod bad_input;
+mod closed_loop;
+mod links;
+mod program;

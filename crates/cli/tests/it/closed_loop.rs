@@ -1,0 +1,102 @@
+//! `sonarfleet run`: whole runs, their results and their reproducibility.
+
+use crate::program::{SCENARIO, assert_same_results, json, sonarfleet, succeed, write};
+use std::path::Path;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+#[test]
+fn a_seed_gives_the_same_bytes_on_one_thread_and_on_two() {
+    let home = tempfile::tempdir().unwrap();
+    write(home.path(), "test.toml", SCENARIO);
+    for threads in ["1", "2"] {
+        let arguments = ["run", "test.toml", "--quiet", "--output", threads, "--threads", threads];
+        succeed(home.path(), &arguments);
+    }
+    assert_same_results(&home.path().join("1"), &home.path().join("2"));
+}
+
+#[test]
+fn a_run_says_what_came_of_it_and_leaves_everything_promised() {
+    let home = tempfile::tempdir().unwrap();
+    write(home.path(), "test.toml", SCENARIO);
+    let said = json(home.path(), &["run", "test.toml", "--output", "out", "--seed", "11"]);
+    let epochs = said["epochs"].as_array().unwrap();
+    assert_eq!(epochs.len(), 2);
+    for epoch in epochs {
+        assert_eq!(epoch["feasible"], true);
+        let utility = epoch["detection_utility"].as_f64().unwrap();
+        assert!(utility > epoch["random_detection_utility"].as_f64().unwrap());
+        assert!(utility <= epoch["upper_bound"].as_f64().unwrap());
+        assert!(epoch["seconds"]["transmission loss"].as_f64().unwrap() > 0.0);
+    }
+    let out = home.path().join("out");
+    for name in [
+        "scenario.toml",
+        "run.json",
+        "metrics.jsonl",
+        "timings.jsonl",
+        "epoch-0.nc",
+        "epoch-1.nc",
+        "routes.geojson",
+        "report.html",
+        "figures/routes.png",
+    ] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+    assert!(!out.join("checkpoint.bin").exists());
+    assert!(!home.path().join("out.partial").exists());
+
+    // The resolved scenario is a scenario, and gives the same run.
+    let resolved = out.join("scenario.toml");
+    let again = ["run", resolved.to_str().unwrap(), "--quiet", "--output", "again"];
+    succeed(home.path(), &again);
+    assert_same_results(&out, &home.path().join("again"));
+}
+
+#[test]
+fn a_killed_run_resumes_and_ends_as_if_never_killed() {
+    let home = tempfile::tempdir().unwrap();
+    write(home.path(), "test.toml", SCENARIO);
+    succeed(home.path(), &["run", "test.toml", "--quiet", "--output", "whole"]);
+
+    let mut killed = sonarfleet(home.path())
+        .args(["run", "test.toml", "--quiet", "--output", "killed"])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let checkpoint = home.path().join("killed.partial/checkpoint.bin");
+    wait_for(&checkpoint);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    // It may have been faster than us; then there is nothing to resume.
+    if !home.path().join("killed").exists() {
+        let resume = ["run", "test.toml", "--quiet", "--output", "killed", "--resume"];
+        succeed(home.path(), &resume);
+    }
+    assert_same_results(&home.path().join("whole"), &home.path().join("killed"));
+}
+
+fn wait_for(path: &Path) {
+    let deadline = Instant::now() + Duration::from_secs(120);
+    while !path.exists() {
+        assert!(Instant::now() < deadline, "{} never came", path.display());
+        sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn files_of_the_synthetic_ocean_give_the_embedded_results() {
+    let home = tempfile::tempdir().unwrap();
+    write(home.path(), "test.toml", SCENARIO);
+    succeed(home.path(), &["ocean", "synth", "d", "--scenario", "test.toml", "--quiet"]);
+    let files = "[ocean]\nsource = \"files\"\n\
+        files = [\"d/thetao.nc\", \"d/so.nc\", \"d/uo_vo.nc\"]\nbathymetry = \"d/bathymetry.nc\"\n";
+    write(home.path(), "files.toml", &format!("{SCENARIO}\n{files}"));
+    let metrics = |scenario: &str, output: &str| {
+        succeed(home.path(), &["run", scenario, "--quiet", "--output", output]);
+        std::fs::read_to_string(home.path().join(output).join("metrics.jsonl")).unwrap()
+    };
+    assert_eq!(metrics("test.toml", "synthetic"), metrics("files.toml", "files"));
+}
