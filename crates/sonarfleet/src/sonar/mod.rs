@@ -1,1 +1,4 @@
 //! sonar
+
+pub mod section;
+pub mod transmission_loss;

@@ -1,0 +1,14 @@
+//! Transmission loss from every cell to every cell: N×2D, many vertical slices
+//! around each source.
+
+mod accuracy;
+mod quality;
+mod row;
+mod table;
+
+pub use accuracy::{ErrorEstimate, estimate_error};
+pub use quality::{BeamClass, Numerics, Quality, UnknownQuality};
+pub use table::{
+    LARGEST_LOSS_DB, LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows,
+    compute_transmission_loss,
+};

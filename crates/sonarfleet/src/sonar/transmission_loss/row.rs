@@ -1,0 +1,191 @@
+use super::quality::Numerics;
+use super::table::{LARGEST_LOSS_DB, LossTableSettings};
+use crate::grid::{CellId, Position, SurveillanceGrid};
+use crate::sonar::section::{BEHIND_M, Waters};
+use sonarfleet_acoustics::AcousticsError;
+use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, RangeProfiler, Source, TraceSettings};
+use std::f64::consts::TAU;
+
+/// A target cell is averaged over this many points a side.
+const POINTS_A_SIDE: usize = 6;
+
+/// What is needed to compute the row of any source.
+pub(super) struct RowComputer<'a> {
+    waters: &'a Waters,
+    grid: &'a SurveillanceGrid,
+    settings: &'a LossTableSettings,
+    numerics: &'a Numerics,
+    classes: Vec<Class>,
+}
+
+/// Beams of one class, and the waters as simplified for them.
+struct Class {
+    fan: LaunchFan,
+    waters: Waters,
+    speed_tolerance_m_s: f64,
+}
+
+impl<'a> RowComputer<'a> {
+    pub(super) fn new(
+        waters: &'a Waters,
+        grid: &'a SurveillanceGrid,
+        settings: &'a LossTableSettings,
+    ) -> Result<Self, AcousticsError> {
+        let numerics = &settings.numerics;
+        let classes = numerics
+            .fans()?
+            .into_iter()
+            .zip(&numerics.beam_classes)
+            .map(|(fan, class)| Class {
+                fan,
+                waters: waters.simplified(class.speed_tolerance_m_s),
+                speed_tolerance_m_s: class.speed_tolerance_m_s,
+            })
+            .collect();
+        Ok(Self { waters, grid, settings, numerics, classes })
+    }
+
+    /// Losses from one cell to all, dB. A source in the ground is heard nowhere.
+    pub(super) fn row(&self, source: CellId) -> Result<Vec<f32>, AcousticsError> {
+        let centre = self.grid.centre(source);
+        if self.waters.floor_m(centre) <= self.settings.fleet_depth_m {
+            return Ok(vec![LARGEST_LOSS_DB; self.grid.cell_count()]);
+        }
+        let slices = (0..self.numerics.bearings)
+            .map(|index| self.slice(centre, index))
+            .collect::<Result<Vec<_>, _>>()?;
+        let row = self
+            .grid
+            .cells()
+            .map(|target| {
+                let intensity = if target == source {
+                    self.within_source_cell(&slices)
+                } else {
+                    self.over_target_cell(&slices, centre, target)
+                };
+                (-10.0 * intensity.log10()).min(f64::from(LARGEST_LOSS_DB)) as f32
+            })
+            .collect();
+        Ok(row)
+    }
+
+    fn bearing_step_rad(&self) -> f64 {
+        TAU / self.numerics.bearings as f64
+    }
+
+    /// Intensity along the slice of one bearing; nothing where the slice is too
+    /// short to hold a sample.
+    fn slice(&self, centre: Position, index: usize) -> Result<RangeProfile, AcousticsError> {
+        let bearing_rad = index as f64 * self.bearing_step_rad();
+        let step_m = self.numerics.range_step_m;
+        let reach_m = self
+            .grid_reach_m(centre, bearing_rad)
+            .min(self.settings.maximum_range_m)
+            .min(self.water_reach_m(centre, bearing_rad));
+        let count = (reach_m / step_m).ceil() as usize;
+        let mut profile = RangeProfile { step_m, intensity: vec![0.0; count] };
+        if count == 0 {
+            return Ok(profile);
+        }
+        let length_m = count as f64 * step_m;
+        let depth_m = self.settings.fleet_depth_m;
+        let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
+        for class in &self.classes {
+            let section =
+                class.waters.section(centre, bearing_rad, length_m, self.numerics.sounding_m)?;
+            let trace = TraceSettings {
+                near_m: -BEHIND_M,
+                amplitude_cutoff: self.numerics.amplitude_cutoff,
+                speed_tolerance_m_s: class.speed_tolerance_m_s,
+                ..TraceSettings::to_range(length_m)
+            };
+            let part = RangeProfiler::new(&section, &trace)
+                .intensity(&source, &class.fan, depth_m, step_m, count)?;
+            for (sum, intensity) in profile.intensity.iter_mut().zip(part.intensity) {
+                *sum += intensity;
+            }
+        }
+        Ok(profile)
+    }
+
+    /// Distance to the edge of the region along a bearing or along its
+    /// neighbours, between which it is interpolated, whichever is longest.
+    fn grid_reach_m(&self, centre: Position, bearing_rad: f64) -> f64 {
+        let (width, height) = (self.grid.width_m(), self.grid.height_m());
+        let step = self.bearing_step_rad();
+        let along = |bearing: f64| {
+            let (sine, cosine) = bearing.sin_cos();
+            let until = |from: f64, speed: f64, length: f64| {
+                if speed > 0.0 {
+                    (length - from) / speed
+                } else if speed < 0.0 {
+                    -from / speed
+                } else {
+                    f64::INFINITY
+                }
+            };
+            until(centre.east_m, sine, width).min(until(centre.north_m, cosine, height))
+        };
+        let mut reach =
+            along(bearing_rad).max(along(bearing_rad - step)).max(along(bearing_rad + step));
+        for (east, north) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)] {
+            let (dx, dy) = (east - centre.east_m, north - centre.north_m);
+            let turn = (dx.atan2(dy) - bearing_rad + 1.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+            if turn.abs() <= step {
+                reach = reach.max(dx.hypot(dy));
+            }
+        }
+        reach
+    }
+
+    /// Distance to where the ground comes up to the fleet's depth: land ends a
+    /// slice.
+    fn water_reach_m(&self, centre: Position, bearing_rad: f64) -> f64 {
+        let (sine, cosine) = bearing_rad.sin_cos();
+        let step = self.numerics.range_step_m;
+        let longest = self.grid.width_m().hypot(self.grid.height_m());
+        (1..=(longest / step) as usize)
+            .map(|k| k as f64 * step)
+            .find(|&range| {
+                let point =
+                    Position::new(centre.east_m + range * sine, centre.north_m + range * cosine);
+                self.waters.floor_m(point) <= self.settings.fleet_depth_m
+            })
+            .unwrap_or(f64::INFINITY)
+    }
+
+    /// Mean intensity over a target cell.
+    fn over_target_cell(&self, slices: &[RangeProfile], centre: Position, target: CellId) -> f64 {
+        let middle = self.grid.centre(target);
+        let offset = |index: usize| (index as f64 + 0.5) / POINTS_A_SIDE as f64 - 0.5;
+        let mut sum = 0.0;
+        for row in 0..POINTS_A_SIDE {
+            for column in 0..POINTS_A_SIDE {
+                let east = middle.east_m + offset(column) * self.grid.cell_width_m - centre.east_m;
+                let north = middle.north_m + offset(row) * self.grid.cell_height_m - centre.north_m;
+                sum += self.intensity_at(slices, east, north);
+            }
+        }
+        sum / (POINTS_A_SIDE * POINTS_A_SIDE) as f64
+    }
+
+    /// Intensity at a point relative to the source, linear between bearings.
+    fn intensity_at(&self, slices: &[RangeProfile], east_m: f64, north_m: f64) -> f64 {
+        let range_m = east_m.hypot(north_m);
+        if range_m > self.settings.maximum_range_m {
+            return 0.0;
+        }
+        let place = east_m.atan2(north_m).rem_euclid(TAU) / self.bearing_step_rad();
+        let before = place as usize;
+        let weight = place - before as f64;
+        let at = |index: usize| slices[index % slices.len()].intensity_at(range_m);
+        (1.0 - weight) * at(before) + weight * at(before + 1)
+    }
+
+    /// Intensity half a cell away from the source, over all bearings.
+    fn within_source_cell(&self, slices: &[RangeProfile]) -> f64 {
+        let half_cell_m = 0.25 * (self.grid.cell_width_m + self.grid.cell_height_m);
+        slices.iter().map(|slice| slice.intensity_at(half_cell_m)).sum::<f64>()
+            / slices.len() as f64
+    }
+}
