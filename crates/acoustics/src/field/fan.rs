@@ -53,30 +53,40 @@ impl LaunchFan {
             classes.len() as f64,
             !classes.is_empty(),
         )?;
-        let mut half = Vec::new();
+        let mut beams = Vec::new();
         let mut inner_deg = 0.0;
         for &(limit_deg, count) in classes {
-            within(
-                "the limit of a beam class",
-                "above the one before and at most 90",
-                limit_deg,
-                limit_deg > inner_deg && limit_deg <= 90.0,
-            )?;
-            within(
-                "the beams in a class",
-                "even and positive",
-                count as f64,
-                count > 0 && count % 2 == 0,
-            )?;
-            let width_rad = ((limit_deg - inner_deg) / (count / 2) as f64).to_radians();
-            half.extend((0..count / 2).map(|index| Beam {
-                angle_rad: inner_deg.to_radians() + (index as f64 + 0.5) * width_rad,
-                width_rad,
-            }));
+            beams.extend(Self::class(inner_deg, limit_deg, count)?.beams);
             inner_deg = limit_deg;
         }
-        let upward = half.iter().rev().map(|beam| Beam { angle_rad: -beam.angle_rad, ..*beam });
-        Ok(Self { beams: upward.chain(half.iter().copied()).collect() })
+        beams.sort_by(|a: &Beam, b: &Beam| a.angle_rad.total_cmp(&b.angle_rad));
+        Ok(Self { beams })
+    }
+
+    /// One class of such a fan: the directions between two angles above and below
+    /// the horizontal, degrees, with half of the beams above and half below.
+    ///
+    /// # Errors
+    /// If the angles do not ascend within 0–90°, or the number of beams is odd or
+    /// zero.
+    pub fn class(inner_deg: f64, outer_deg: f64, count: usize) -> Result<Self, AcousticsError> {
+        within("the inner limit of a beam class", "at least 0", inner_deg, inner_deg >= 0.0)?;
+        within(
+            "the outer limit of a beam class",
+            "above the inner one and at most 90",
+            outer_deg,
+            outer_deg > inner_deg && outer_deg <= 90.0,
+        )?;
+        let even = count > 0 && count.is_multiple_of(2);
+        within("the beams in a class", "even and positive", count as f64, even)?;
+        let width_rad = ((outer_deg - inner_deg) / (count / 2) as f64).to_radians();
+        let beam = |index: usize, side: f64| Beam {
+            angle_rad: side * (inner_deg.to_radians() + (index as f64 + 0.5) * width_rad),
+            width_rad,
+        };
+        let upward = (0..count / 2).rev().map(|index| beam(index, -1.0));
+        let downward = (0..count / 2).map(|index| beam(index, 1.0));
+        Ok(Self { beams: upward.chain(downward).collect() })
     }
 
     /// The beams, from the uppermost to the lowest.

@@ -10,6 +10,13 @@ use std::f64::consts::{PI, TAU};
 /// 3·10⁻⁴ of the middle.
 const REACH: f64 = 4.0;
 
+/// Vertical reach over reach across the ray, 1/cos θ, that the quick test of a
+/// segment allows for: beams of rays steeper than 80° may lose their rims.
+const STEEPEST_SECANT: f64 = 6.0;
+
+/// No water is faster, m/s.
+const FASTEST_M_S: f64 = 1700.0;
+
 /// Standard deviation of the window over which intensities are averaged in
 /// range, in steps of the profile. Samples one step apart then add up to the
 /// whole within 1.5 %, which averages out over a fan.
@@ -94,6 +101,10 @@ impl<'a> RangeProfiler<'a> {
         let mut deposits = Deposits {
             depth: receiver_depth_m,
             step: step_m,
+            steps_per_metre: step_m.recip(),
+            least_reach: REACH
+                * STEEPEST_SECANT
+                * (PI * FASTEST_M_S / source.frequency_hz + WINDOW_STEPS * step_m),
             window: WINDOW_STEPS * step_m,
             frequency: source.frequency_hz,
             absorption: 2.0 * absorption_db_km / (1000.0 * DB_PER_NEPER),
@@ -119,6 +130,9 @@ impl<'a> RangeProfiler<'a> {
 struct Deposits {
     depth: f64,
     step: f64,
+    steps_per_metre: f64,
+    /// How far beams of least width reach vertically, at most.
+    least_reach: f64,
     /// h, metres.
     window: f64,
     frequency: f64,
@@ -139,21 +153,29 @@ impl Deposits {
 
     /// Whether the segment, vertex included, comes near the receivers' depth.
     fn comes_near(&self, segment: &Segment, end: Pair) -> bool {
-        let slowness = segment.slowness;
-        let speed = slowness.dot(slowness).sqrt().recip();
-        let widest = segment.width(0.0).abs().max(segment.width(segment.sigma).abs());
-        let steepest = slowness.z.abs().max(segment.slowness_at(segment.sigma).z.abs()) * speed;
-        let flattest = (1.0 - steepest * steepest).max(1e-6).sqrt();
-        let spread = self.spread(widest, speed, segment.burden.time_s + 1.0);
-        let reach = REACH * (spread + self.window * steepest) / flattest;
         let (mut top, mut bottom) = (segment.start.z.min(end.z), segment.start.z.max(end.z));
-        let turning = -slowness.z / segment.gradient.z;
-        if turning > 0.0 && turning < segment.sigma {
-            let vertex = segment.position(turning).z;
+        if segment.slowness.z * segment.slowness_at(segment.sigma).z < 0.0 {
+            let vertex = segment.position(-segment.slowness.z / segment.gradient.z).z;
             top = top.min(vertex);
             bottom = bottom.max(vertex);
         }
-        top - reach <= self.depth && self.depth <= bottom + reach
+        let distance = (top - self.depth).max(self.depth - bottom);
+        if distance <= 0.0 {
+            return true;
+        }
+        // Most segments are far away: a bound without roots settles that.
+        let tube = |offset: Pair| offset.x.abs() + offset.z.abs();
+        let widest = tube(segment.offset).max(tube(segment.offset_at(segment.sigma)));
+        if distance > self.least_reach + REACH * STEEPEST_SECANT * widest * self.beam_width {
+            return false;
+        }
+        let slowness = segment.slowness;
+        let speed = slowness.dot(slowness).sqrt().recip();
+        let width = segment.width(0.0).abs().max(segment.width(segment.sigma).abs());
+        let steepest = slowness.z.abs().max(segment.slowness_at(segment.sigma).z.abs()) * speed;
+        let flattest = (1.0 - steepest * steepest).max(1e-6).sqrt();
+        let spread = self.spread(width, speed, segment.burden.time_s + 1.0);
+        distance <= REACH * (spread + self.window * steepest) / flattest
     }
 
     fn deposit(&mut self, segment: &Segment, index: usize) {
@@ -179,7 +201,7 @@ impl Deposits {
 impl SegmentSink for Deposits {
     fn segment(&mut self, segment: &Segment) {
         let end = segment.position(segment.sigma);
-        let sample = |x: f64| (x / self.step + 0.5).floor().max(0.0) as usize;
+        let sample = |x: f64| (x * self.steps_per_metre + 0.5).max(0.0) as usize;
         let (near, far) = (segment.start.x.min(end.x), segment.start.x.max(end.x));
         let (first, last) = (sample(near), sample(far).min(self.sums.len()));
         if first < last && self.comes_near(segment, end) {

@@ -13,6 +13,7 @@ pub(crate) struct Exit {
 ///
 /// The root is 2d/(v + √(v² + 2ad)), free of cancellation, for the face ahead;
 /// the face behind is left by only if the face ahead is never reached.
+#[inline]
 pub(crate) fn exit(velocity: f64, acceleration: f64, below: f64, above: f64) -> Exit {
     let upward = velocity >= 0.0;
     let (speed, push, ahead, behind) = if upward {
@@ -36,6 +37,7 @@ pub(crate) fn exit(velocity: f64, acceleration: f64, below: f64, above: f64) -> 
 /// First σ ≥ 0 at which a gap of `distance` ≥ 0, closed at `closing` speed
 /// with acceleration `push`, is nil; infinite if never. A gap that is nil
 /// already counts only if it is closing, or after it has opened and closed.
+#[inline]
 pub(crate) fn contact(closing: f64, push: f64, distance: f64) -> f64 {
     if closing > 0.0 {
         let discriminant = closing * closing + 2.0 * push * distance;

@@ -73,6 +73,7 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
+    #[inline]
     pub(crate) fn position(&self, sigma: f64) -> Pair {
         self.start + self.slowness * sigma + self.gradient * (0.5 * sigma * sigma)
     }

@@ -120,6 +120,8 @@ impl Tracer<'_> {
     }
 
     /// The segment from where the ray is to what it meets next.
+    #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
+    #[inline(always)]
     fn segment(&self, ray: &State) -> (Segment, Meeting) {
         let cell = self.medium.cell(ray.column, ray.layer);
         let layer = self.medium.layers[ray.layer];
@@ -145,20 +147,25 @@ impl Tracer<'_> {
         (segment, meeting)
     }
 
+    #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
+    #[inline(always)]
     fn next_meeting(&self, ray: &State, gradient: Pair) -> (f64, Meeting) {
         let (column, layer) = (self.medium.columns[ray.column], self.medium.layers[ray.layer]);
         let (local, slowness) = (ray.local, ray.slowness);
         let (width, height) = (column.half_width, layer.half_height);
-        let across =
-            exit(slowness.x, gradient.x, (width + local.x).max(0.0), (width - local.x).max(0.0));
         let along =
             exit(slowness.z, gradient.z, (height + local.z).max(0.0), (height - local.z).max(0.0));
         let side = |by_upper: bool| if by_upper { 1 } else { -1 };
-        let (sigma, meeting) = if along.sigma <= across.sigma {
-            (along.sigma, Meeting::Level(side(along.by_upper)))
-        } else {
-            (across.sigma, Meeting::Node(side(across.by_upper)))
-        };
+        let (mut sigma, mut meeting) = (along.sigma, Meeting::Level(side(along.by_upper)));
+        // A range node is met only if the level lies beyond it.
+        let end = local.x + sigma * (slowness.x + 0.5 * sigma * gradient.x);
+        if !(-width..=width).contains(&end) {
+            let (behind, ahead) = ((width + local.x).max(0.0), (width - local.x).max(0.0));
+            let across = exit(slowness.x, gradient.x, behind, ahead);
+            if across.sigma < sigma {
+                (sigma, meeting) = (across.sigma, Meeting::Node(side(across.by_upper)));
+            }
+        }
         if ray.layer >= column.first_cut {
             let gap = floor_at(&column, local.x) - (layer.middle + local.z);
             let closing = slowness.z - column.slope * slowness.x;
@@ -173,6 +180,8 @@ impl Tracer<'_> {
 
     /// Moves the ray to the end of its segment, exactly onto what it meets, and
     /// gives the vertical slowness the value that |p| = 1/c demands there.
+    #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
+    #[inline(always)]
     fn advance(&self, ray: &mut State, segment: &Segment, meeting: Meeting) {
         let (column, layer) = (self.medium.columns[ray.column], self.medium.layers[ray.layer]);
         let cell = self.medium.cell(ray.column, ray.layer);

@@ -8,8 +8,8 @@ use crate::scenario::Scenario;
 use crate::sonar::loss_file::{LossDescription, read_table};
 use crate::sonar::section::Waters;
 use crate::sonar::transmission_loss::{
-    LossTableSettings, TransmissionLossTable, compute_transmission_loss, estimate_error,
-    transmission_loss_from,
+    LossTableSettings, TransmissionLossTable, compute_rows, compute_transmission_loss,
+    estimate_error,
 };
 use sonarfleet_acoustics::environment::Boundary;
 use sonarfleet_ocean::OceanState;
@@ -134,7 +134,7 @@ impl Acoustics {
             frequency_hz: scenario.frequency_hz,
             fleet_depth_m: scenario.fleet_depth_m,
             maximum_range_m: scenario.maximum_range_m.unwrap_or(f64::INFINITY),
-            quality: scenario.quality,
+            numerics: scenario.quality.numerics(),
         };
         Ok(Self { waters, settings })
     }
@@ -149,7 +149,8 @@ impl Acoustics {
         sources: &[CellId],
         progress: Progress<'_>,
     ) -> Result<Vec<f32>, MissionError> {
-        Ok(transmission_loss_from(&self.waters, &scenario.grid, &self.settings, sources, progress)?)
+        let rows = compute_rows(&self.waters, &scenario.grid, &self.settings, sources, progress)?;
+        Ok(rows.concat())
     }
 
     /// The whole table.
@@ -166,7 +167,7 @@ impl Acoustics {
 
     /// How a table of these acoustics is described in records.
     fn metrics(&self, scenario: &Scenario) -> LossTableMetrics {
-        let numerics = self.settings.quality.numerics();
+        let numerics = &self.settings.numerics;
         let diagonal_m = scenario.grid.width_m().hypot(scenario.grid.height_m());
         LossTableMetrics {
             beams: numerics.beam_count(),
@@ -178,14 +179,14 @@ impl Acoustics {
 
     /// How a table of these acoustics is described in files.
     pub fn description(&self, scenario: &Scenario, state: &OceanState) -> LossDescription {
-        let numerics = self.settings.quality.numerics();
+        let numerics = &self.settings.numerics;
         LossDescription {
             columns: scenario.grid.columns,
             rows: scenario.grid.rows,
             frequency_hz: self.settings.frequency_hz,
             fleet_depth_m: self.settings.fleet_depth_m,
             time: state.time.to_string(),
-            quality: self.settings.quality.name().into(),
+            quality: scenario.quality.name().into(),
             beams: numerics.beam_count(),
             bearings: numerics.bearings,
         }

@@ -6,8 +6,9 @@ use sonarfleet_ocean::io::{Attribute, Dataset, Values};
 use std::path::Path;
 
 /// Writes `travel_time_h` [vehicle, post], hours, infinite where unreachable, as
-/// `.npz` or `.nc` by the file's extension. An `.npz` also holds `cost`, the costs
-/// that an assignment uses: finite everywhere.
+/// `.npz` or `.nc` by the file's extension. An `.npz` also holds
+/// `closest_approach_m`, what remains to an unreachable post, and `cost`, the costs in
+/// hours that an assignment uses: finite everywhere.
 ///
 /// # Errors
 /// If the extension is neither, or the file cannot be written.
@@ -17,7 +18,13 @@ pub fn write_matrix(path: &Path, travel: &TravelTimes) -> Result<(), NavigationE
         Some("npz") => {
             let shape = &[travel.starts(), travel.goals()];
             let array = |key, values| NamedArray { key, shape, values: npz::Values::F64(values) };
-            Ok(npz::write(path, &[array("travel_time_h", &hours), array("cost", &costs_h)])?)
+            let closest_m = travel.closest_approaches_m();
+            let arrays = [
+                array("travel_time_h", &hours),
+                array("closest_approach_m", &closest_m),
+                array("cost", &costs_h),
+            ];
+            Ok(npz::write(path, &arrays)?)
         }
         Some("nc") => {
             let mut file = Dataset::new("Travel times of vehicles to posts");

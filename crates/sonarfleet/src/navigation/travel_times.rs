@@ -1,8 +1,6 @@
 //! The travel-time matrix.
 
-use super::{NavigationError, Unreachable, Voyage};
-use crate::npz::{self, NamedArray, Values};
-use std::path::Path;
+use super::{Unreachable, Voyage};
 
 /// Expected travel of one vehicle to one post.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +73,12 @@ impl TravelTimes {
         self.pairs.iter().map(|pair| pair.hours).collect()
     }
 
+    /// How near each start comes to each goal, [start, goal], metres; 0 where it
+    /// arrives.
+    pub fn closest_approaches_m(&self) -> Vec<f64> {
+        self.pairs.iter().map(|pair| pair.closest_approach_m).collect()
+    }
+
     /// Costs for the assignment, [start, goal], hours: the travel time, and for an
     /// unreachable post the horizon plus the time that the remaining distance takes
     /// in still water, so that an assignment always exists and brings every vehicle
@@ -85,19 +89,5 @@ impl TravelTimes {
             Some(_) => self.horizon_h + pair.closest_approach_m / self.speed_m_h,
         };
         self.pairs.iter().map(cost).collect()
-    }
-
-    /// Writes the matrix as an `.npz` archive: `travel_time_h` and
-    /// `closest_approach_m`, both [vehicle, post]; infinite hours are unreachable.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
-    pub fn write_npz(&self, path: impl AsRef<Path>) -> Result<(), NavigationError> {
-        let shape = [self.starts, self.goals];
-        let hours = self.hours();
-        let closest: Vec<f64> = self.pairs.iter().map(|pair| pair.closest_approach_m).collect();
-        let array = |key, values| NamedArray { key, shape: &shape, values: Values::F64(values) };
-        npz::write(path, &[array("travel_time_h", &hours), array("closest_approach_m", &closest)])?;
-        Ok(())
     }
 }

@@ -193,9 +193,8 @@ impl Waters {
         sounding_m: f64,
     ) -> Result<Section, AcousticsError> {
         let (sine, cosine) = bearing_rad.sin_cos();
-        let at = |range: f64| {
-            Position::new(from.east_m + range * sine, from.north_m + range * cosine)
-        };
+        let at =
+            |range: f64| Position::new(from.east_m + range * sine, from.north_m + range * cosine);
         let nodes = |step_m: f64| -> Vec<f64> {
             let count = ((BEHIND_M + length_m) / step_m).ceil().max(1.0) as usize;
             let step = (BEHIND_M + length_m) / count as f64;
@@ -210,8 +209,7 @@ impl Waters {
             let column = |node: usize| &self.speed_m_s[node * levels..(node + 1) * levels];
             let [(a, wa), (b, wb), (c, wc), (d, wd)] = corners;
             let (a, b, c, d) = (column(a), column(b), column(c), column(d));
-            speed_m_s
-                .extend((0..levels).map(|k| wa * a[k] + wb * b[k] + wc * c[k] + wd * d[k]));
+            speed_m_s.extend((0..levels).map(|k| wa * a[k] + wb * b[k] + wc * c[k] + wd * d[k]));
         }
         let sound_speed = SoundSpeedField::new(
             range_m,
@@ -292,7 +290,8 @@ fn fill_dry(profiles: &mut [Option<Vec<f64>>], lattice: Lattice) {
             rows * rows + columns * columns
         };
         if let Some(&nearest) = wet.iter().min_by_key(distance) {
-            profiles[node] = profiles[nearest].clone();
+            let repeated = profiles[nearest].clone();
+            profiles[node] = repeated;
         }
     }
 }
@@ -355,8 +354,7 @@ mod tests {
             let (longitude, latitude) = frame.to_geographic(east, north);
             let column = state.column(longitude, latitude).unwrap();
             for depth in [0.494_025_f64, 109.729_3, 318.127_4] {
-                let level =
-                    column.depth_m.iter().position(|z| (z - depth).abs() < 0.01).unwrap();
+                let level = column.depth_m.iter().position(|z| (z - depth).abs() < 0.01).unwrap();
                 let depth = column.depth_m[level];
                 let expected = SoundSpeedEquation::Mackenzie.speed_m_s(
                     column.temperature_c[level],
@@ -379,8 +377,7 @@ mod tests {
         let simple = waters.simplified(0.2);
         assert!(simple.level_m.len() < waters.level_m.len());
         let from = Position::new(5_000.0, 5_000.0);
-        let [full, few] =
-            [&waters, &simple].map(|w| w.section(from, 1.0, 8_000.0, 500.0).unwrap());
+        let [full, few] = [&waters, &simple].map(|w| w.section(from, 1.0, 8_000.0, 500.0).unwrap());
         for depth in (0..1500).step_by(10).map(f64::from) {
             let [a, b] = [&full, &few].map(|s| s.sound_speed().speed_at_m_s(3_000.0, depth));
             assert!((a - b).abs() < 0.2 + 1e-9, "{depth}: {a} {b}");

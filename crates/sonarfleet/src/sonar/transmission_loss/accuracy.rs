@@ -1,7 +1,5 @@
-use super::quality::{Numerics, Quality};
-use super::table::{
-    LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows,
-};
+use super::quality::Quality;
+use super::table::{LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows};
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
 
@@ -37,9 +35,8 @@ pub fn estimate_error(
     sources: &[CellId],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<ErrorEstimate, TransmissionLossError> {
-    settings.check()?;
-    let fine: Numerics = Quality::Fine.numerics();
-    let rows = compute_rows(waters, grid, settings, &fine, sources, progress)?;
+    let fine = LossTableSettings { numerics: Quality::Fine.numerics(), ..settings.clone() };
+    let rows = compute_rows(waters, grid, &fine, sources, progress)?;
     let mut differences: Vec<f64> = sources
         .iter()
         .zip(&rows)

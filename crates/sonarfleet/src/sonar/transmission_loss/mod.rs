@@ -7,8 +7,8 @@ mod row;
 mod table;
 
 pub use accuracy::{ErrorEstimate, estimate_error};
-pub use quality::{Numerics, Quality, UnknownQuality};
+pub use quality::{BeamClass, Numerics, Quality, UnknownQuality};
 pub use table::{
-    LARGEST_LOSS_DB, LossTableSettings, TransmissionLossError, TransmissionLossTable,
-    compute_transmission_loss, transmission_loss_from,
+    LARGEST_LOSS_DB, LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows,
+    compute_transmission_loss,
 };

@@ -14,18 +14,27 @@ pub enum Quality {
     Fine,
 }
 
+/// Beams of similar launch angles. The steeper they are, the less does the fine
+/// structure of the sound speed bend them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BeamClass {
+    /// How far up and down from the horizontal the class reaches, degrees.
+    pub limit_deg: f64,
+    /// Number of beams, half of them upward.
+    pub beams: usize,
+    /// How far sound-speed profiles may be simplified, m/s.
+    pub speed_tolerance_m_s: f64,
+}
+
 /// What a quality means, number by number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Numerics {
     /// Vertical slices around a source.
     pub bearings: usize,
-    /// Beams of a slice by class of launch angle: how far up and down the class
-    /// reaches, degrees, and how many beams it holds.
-    pub beam_classes: Vec<(f64, usize)>,
+    /// Beams of a slice by class of launch angle, shallowest first.
+    pub beam_classes: Vec<BeamClass>,
     /// Product of reflection coefficients under which a ray ends.
     pub amplitude_cutoff: f64,
-    /// How far sound-speed profiles may be simplified, m/s.
-    pub speed_tolerance_m_s: f64,
     /// Distance between soundings of the sea floor along a slice, metres.
     pub sounding_m: f64,
     /// Distance between samples of intensity along a slice, metres.
@@ -38,26 +47,23 @@ impl Quality {
     pub fn numerics(self) -> Numerics {
         match self {
             Self::Fast => Numerics {
-                bearings: 36,
-                beam_classes: vec![(12.0, 160), (25.0, 100), (60.0, 60)],
+                bearings: 48,
+                beam_classes: classes([(12.0, 120, 0.1), (25.0, 80, 0.3), (60.0, 40, 2.0)]),
                 amplitude_cutoff: 0.03,
-                speed_tolerance_m_s: 0.2,
-                sounding_m: 1000.0,
+                sounding_m: 250.0,
                 range_step_m: 100.0,
             },
             Self::Standard => Numerics {
-                bearings: 72,
-                beam_classes: vec![(12.0, 200), (25.0, 130), (60.0, 80)],
+                bearings: 96,
+                beam_classes: classes([(12.0, 160, 0.05), (25.0, 100, 0.3), (60.0, 60, 1.0)]),
                 amplitude_cutoff: 0.02,
-                speed_tolerance_m_s: 0.1,
-                sounding_m: 500.0,
+                sounding_m: 250.0,
                 range_step_m: 100.0,
             },
             Self::Fine => Numerics {
                 bearings: 720,
-                beam_classes: vec![(12.0, 600), (25.0, 360), (60.0, 240)],
+                beam_classes: classes([(12.0, 600, 0.01), (25.0, 360, 0.01), (60.0, 240, 0.01)]),
                 amplitude_cutoff: 0.005,
-                speed_tolerance_m_s: 0.01,
                 sounding_m: 250.0,
                 range_step_m: 50.0,
             },
@@ -77,16 +83,32 @@ impl Quality {
 impl Numerics {
     /// Beams per slice.
     pub fn beam_count(&self) -> usize {
-        self.beam_classes.iter().map(|(_, count)| count).sum()
+        self.beam_classes.iter().map(|class| class.beams).sum()
     }
 
-    /// The fan of a slice.
+    /// The fan of each class.
     ///
     /// # Errors
     /// If the classes do not ascend or hold odd numbers of beams.
-    pub fn fan(&self) -> Result<LaunchFan, AcousticsError> {
-        LaunchFan::graded(&self.beam_classes)
+    pub fn fans(&self) -> Result<Vec<LaunchFan>, AcousticsError> {
+        let mut inner_deg = 0.0;
+        let fan = |class: &BeamClass| {
+            let fan = LaunchFan::class(inner_deg, class.limit_deg, class.beams);
+            inner_deg = class.limit_deg;
+            fan
+        };
+        self.beam_classes.iter().map(fan).collect()
     }
+}
+
+/// Classes from (limit in degrees, beams, tolerance in m/s).
+fn classes<const N: usize>(classes: [(f64, usize, f64); N]) -> Vec<BeamClass> {
+    let class = |(limit_deg, beams, speed_tolerance_m_s)| BeamClass {
+        limit_deg,
+        beams,
+        speed_tolerance_m_s,
+    };
+    classes.map(class).to_vec()
 }
 
 /// The name of no known quality.
@@ -114,7 +136,9 @@ mod tests {
         for quality in [Quality::Fast, Quality::Standard, Quality::Fine] {
             assert_eq!(quality.name().parse(), Ok(quality));
             let numerics = quality.numerics();
-            assert_eq!(numerics.fan().unwrap().beams().len(), numerics.beam_count());
+            let fans = numerics.fans().unwrap();
+            let beams: usize = fans.iter().map(|fan| fan.beams().len()).sum();
+            assert_eq!(beams, numerics.beam_count());
         }
         assert!("best".parse::<Quality>().is_err());
     }

@@ -1,7 +1,7 @@
 use super::quality::Numerics;
 use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
-use crate::sonar::section::Waters;
+use crate::sonar::section::{BEHIND_M, Waters};
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, RangeProfiler, Source, TraceSettings};
 use std::f64::consts::TAU;
@@ -11,22 +11,38 @@ const POINTS_A_SIDE: usize = 6;
 
 /// What is needed to compute the row of any source.
 pub(super) struct RowComputer<'a> {
-    waters: Waters,
+    waters: &'a Waters,
     grid: &'a SurveillanceGrid,
     settings: &'a LossTableSettings,
     numerics: &'a Numerics,
+    classes: Vec<Class>,
+}
+
+/// Beams of one class, and the waters as simplified for them.
+struct Class {
     fan: LaunchFan,
+    waters: Waters,
+    speed_tolerance_m_s: f64,
 }
 
 impl<'a> RowComputer<'a> {
     pub(super) fn new(
-        waters: &Waters,
+        waters: &'a Waters,
         grid: &'a SurveillanceGrid,
         settings: &'a LossTableSettings,
-        numerics: &'a Numerics,
     ) -> Result<Self, AcousticsError> {
-        let waters = waters.simplified(numerics.speed_tolerance_m_s);
-        Ok(Self { waters, grid, settings, numerics, fan: numerics.fan()? })
+        let numerics = &settings.numerics;
+        let classes = numerics
+            .fans()?
+            .into_iter()
+            .zip(&numerics.beam_classes)
+            .map(|(fan, class)| Class {
+                fan,
+                waters: waters.simplified(class.speed_tolerance_m_s),
+                speed_tolerance_m_s: class.speed_tolerance_m_s,
+            })
+            .collect();
+        Ok(Self { waters, grid, settings, numerics, classes })
     }
 
     /// Losses from one cell to all, dB. A source in the ground is heard nowhere.
@@ -67,23 +83,29 @@ impl<'a> RowComputer<'a> {
             .min(self.settings.maximum_range_m)
             .min(self.water_reach_m(centre, bearing_rad));
         let count = (reach_m / step_m).ceil() as usize;
+        let mut profile = RangeProfile { step_m, intensity: vec![0.0; count] };
         if count == 0 {
-            return Ok(RangeProfile { step_m, intensity: Vec::new() });
+            return Ok(profile);
         }
         let length_m = count as f64 * step_m;
-        let section =
-            self.waters.section(centre, bearing_rad, length_m, self.numerics.sounding_m)?;
-        let trace = TraceSettings {
-            near_m: -crate::sonar::section::BEHIND_M,
-            far_m: length_m,
-            amplitude_cutoff: self.numerics.amplitude_cutoff,
-            speed_tolerance_m_s: self.numerics.speed_tolerance_m_s,
-            ..TraceSettings::to_range(length_m)
-        };
         let depth_m = self.settings.fleet_depth_m;
         let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
-        RangeProfiler::new(&section, &trace)
-            .intensity(&source, &self.fan, depth_m, step_m, count)
+        for class in &self.classes {
+            let section =
+                class.waters.section(centre, bearing_rad, length_m, self.numerics.sounding_m)?;
+            let trace = TraceSettings {
+                near_m: -BEHIND_M,
+                amplitude_cutoff: self.numerics.amplitude_cutoff,
+                speed_tolerance_m_s: class.speed_tolerance_m_s,
+                ..TraceSettings::to_range(length_m)
+            };
+            let part = RangeProfiler::new(&section, &trace)
+                .intensity(&source, &class.fan, depth_m, step_m, count)?;
+            for (sum, intensity) in profile.intensity.iter_mut().zip(part.intensity) {
+                *sum += intensity;
+            }
+        }
+        Ok(profile)
     }
 
     /// Distance to the edge of the region along a bearing or along its
@@ -122,9 +144,8 @@ impl<'a> RowComputer<'a> {
         let (sine, cosine) = bearing_rad.sin_cos();
         let step = self.numerics.range_step_m;
         let longest = self.grid.width_m().hypot(self.grid.height_m());
-        (1..)
-            .map(|k| f64::from(k) * step)
-            .take_while(|&range| range < longest)
+        (1..=(longest / step) as usize)
+            .map(|k| k as f64 * step)
             .find(|&range| {
                 let point =
                     Position::new(centre.east_m + range * sine, centre.north_m + range * cosine);
@@ -134,20 +155,14 @@ impl<'a> RowComputer<'a> {
     }
 
     /// Mean intensity over a target cell.
-    fn over_target_cell(
-        &self,
-        slices: &[RangeProfile],
-        centre: Position,
-        target: CellId,
-    ) -> f64 {
+    fn over_target_cell(&self, slices: &[RangeProfile], centre: Position, target: CellId) -> f64 {
         let middle = self.grid.centre(target);
         let offset = |index: usize| (index as f64 + 0.5) / POINTS_A_SIDE as f64 - 0.5;
         let mut sum = 0.0;
         for row in 0..POINTS_A_SIDE {
             for column in 0..POINTS_A_SIDE {
                 let east = middle.east_m + offset(column) * self.grid.cell_width_m - centre.east_m;
-                let north =
-                    middle.north_m + offset(row) * self.grid.cell_height_m - centre.north_m;
+                let north = middle.north_m + offset(row) * self.grid.cell_height_m - centre.north_m;
                 sum += self.intensity_at(slices, east, north);
             }
         }

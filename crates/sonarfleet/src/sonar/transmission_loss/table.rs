@@ -1,4 +1,4 @@
-use super::quality::{Numerics, Quality};
+use super::quality::Numerics;
 use super::row::RowComputer;
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
@@ -34,7 +34,7 @@ impl TransmissionLossTable {
 }
 
 /// What a table is computed for.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LossTableSettings {
     /// Frequency, Hz.
     pub frequency_hz: f64,
@@ -43,8 +43,8 @@ pub struct LossTableSettings {
     /// Largest distance over which sound is followed, metres; infinite for the
     /// whole region.
     pub maximum_range_m: f64,
-    /// How much work goes into it.
-    pub quality: Quality,
+    /// How much work goes into it: those of a [`Quality`](super::Quality), as a rule.
+    pub numerics: Numerics,
 }
 
 /// Why a table could not be computed.
@@ -70,7 +70,7 @@ pub enum TransmissionLossError {
 }
 
 impl LossTableSettings {
-    pub(super) fn check(&self) -> Result<(), TransmissionLossError> {
+    fn check(&self) -> Result<(), TransmissionLossError> {
         for (setting, found) in [
             ("the frequency", self.frequency_hz),
             ("the fleet's depth", self.fleet_depth_m),
@@ -97,40 +97,26 @@ pub fn compute_transmission_loss(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<TransmissionLossTable, TransmissionLossError> {
     let sources: Vec<CellId> = grid.cells().collect();
-    let loss_db = transmission_loss_from(waters, grid, settings, &sources, progress)?;
-    Ok(TransmissionLossTable { cell_count: grid.cell_count(), loss_db })
+    let rows = compute_rows(waters, grid, settings, &sources, progress)?;
+    Ok(TransmissionLossTable { cell_count: grid.cell_count(), loss_db: rows.concat() })
 }
 
-/// As [`compute_transmission_loss`], but only the rows of some sources, in their
-/// order: [source, target], dB.
+/// The rows of some sources, in their order: parts of a table, which the rows of
+/// all sources make up.
 ///
 /// # Errors
 /// If a setting is not positive.
-pub fn transmission_loss_from(
+pub fn compute_rows(
     waters: &Waters,
     grid: &SurveillanceGrid,
     settings: &LossTableSettings,
-    sources: &[CellId],
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Vec<f32>, TransmissionLossError> {
-    settings.check()?;
-    let numerics = settings.quality.numerics();
-    Ok(compute_rows(waters, grid, settings, &numerics, sources, progress)?.concat())
-}
-
-/// The rows of some sources, in their order.
-pub(super) fn compute_rows(
-    waters: &Waters,
-    grid: &SurveillanceGrid,
-    settings: &LossTableSettings,
-    numerics: &Numerics,
     sources: &[CellId],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Vec<f32>>, TransmissionLossError> {
+    settings.check()?;
     let slice_error =
         |source_cell| move |reason| TransmissionLossError::Slice { source_cell, reason };
-    let computer = RowComputer::new(waters, grid, settings, numerics)
-        .map_err(slice_error(CellId(0)))?;
+    let computer = RowComputer::new(waters, grid, settings).map_err(slice_error(CellId(0)))?;
     let done = AtomicUsize::new(0);
     sources
         .par_iter()
@@ -140,4 +126,137 @@ pub(super) fn compute_rows(
             Ok(row)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Quality, estimate_error};
+    use super::*;
+    use sonarfleet_acoustics::environment::{Boundary, Seabed};
+    use sonarfleet_acoustics::seawater::SoundSpeedEquation;
+    use sonarfleet_ocean::synthetic::SyntheticOcean;
+    use sonarfleet_ocean::{Bathymetry, LocalFrame, Region};
+    use std::sync::Mutex;
+
+    /// The middle of the default region in 4 × 4 cells of about 1 km.
+    fn region() -> Region {
+        Region { west_deg: 118.23, east_deg: 118.27, south_deg: 21.72, north_deg: 21.757 }
+    }
+
+    fn setting(change: impl Fn(&mut Bathymetry)) -> (Waters, SurveillanceGrid, LossTableSettings) {
+        let ocean = SyntheticOcean { region: region(), states: 1, ..SyntheticOcean::default() };
+        let frame = LocalFrame::new(region());
+        let grid = SurveillanceGrid {
+            columns: 4,
+            rows: 4,
+            cell_width_m: frame.width_m() / 4.0,
+            cell_height_m: frame.height_m() / 4.0,
+        };
+        let mut bathymetry = ocean.bathymetry();
+        change(&mut bathymetry);
+        let waters = Waters::new(
+            &ocean.forecast().states[0],
+            &bathymetry,
+            &frame,
+            SoundSpeedEquation::Mackenzie,
+            Boundary::Fluid(Seabed::Mud.half_space()),
+        )
+        .unwrap();
+        let settings = LossTableSettings {
+            frequency_hz: 1000.0,
+            fleet_depth_m: 200.0,
+            maximum_range_m: f64::INFINITY,
+            numerics: Quality::Fast.numerics(),
+        };
+        (waters, grid, settings)
+    }
+
+    #[test]
+    fn losses_grow_from_the_source_outward_and_progress_is_told() {
+        let (waters, grid, settings) = setting(|_| {});
+        let told = Mutex::new(Vec::new());
+        let progress = |done, total| told.lock().unwrap().push((done, total));
+        let table = compute_transmission_loss(&waters, &grid, &settings, &progress).unwrap();
+        assert_eq!(table.loss_db.len(), 256);
+        let source = CellId(0);
+        // Spherical spreading to half a cell, and surface-reflected sound.
+        let nearest = table.loss_db(source, source);
+        assert!((50.0..56.0).contains(&nearest), "{nearest}");
+        assert!(table.loss_db(source, CellId(1)) > nearest);
+        assert!(table.loss_db(source, CellId(15)) > table.loss_db(source, CellId(5)));
+        assert!(table.loss_db.iter().all(|loss| (40.0..100.0).contains(loss)));
+        let mut told = told.into_inner().unwrap();
+        told.sort_unstable();
+        assert_eq!(told, (1..=16).map(|done| (done, 16)).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_bit() {
+        let (waters, grid, settings) = setting(|_| {});
+        let [one, two] = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| compute_transmission_loss(&waters, &grid, &settings, &|_, _| {}))
+                .unwrap()
+        });
+        assert_eq!(one, two);
+    }
+
+    #[test]
+    fn rows_are_parts_of_the_table() {
+        let (waters, grid, settings) = setting(|_| {});
+        let table = compute_transmission_loss(&waters, &grid, &settings, &|_, _| {}).unwrap();
+        let rows = compute_rows(&waters, &grid, &settings, &[CellId(7)], &|_, _| {}).unwrap();
+        assert_eq!(rows[0], table.row(CellId(7)));
+    }
+
+    /// A wall of land from north to south between the second and third columns.
+    #[test]
+    fn land_blocks_sound() {
+        let middle_deg = 0.5 * (region().west_deg + region().east_deg);
+        let (waters, grid, settings) = setting(|bathymetry| {
+            let columns = bathymetry.longitude_deg.len();
+            for (node, depth) in bathymetry.values_m.iter_mut().enumerate() {
+                if (bathymetry.longitude_deg[node % columns] - middle_deg).abs() < 0.004 {
+                    *depth = -50.0;
+                }
+            }
+        });
+        let table = compute_transmission_loss(&waters, &grid, &settings, &|_, _| {}).unwrap();
+        for (source, target) in [(CellId(0), CellId(3)), (CellId(7), CellId(4))] {
+            assert!(table.loss_db(source, target) > 199.0);
+        }
+        assert!(table.loss_db(CellId(0), CellId(4)) < 90.0);
+    }
+
+    #[test]
+    fn sound_beyond_the_largest_range_is_not_followed() {
+        let (waters, grid, settings) = setting(|_| {});
+        let settings = LossTableSettings { maximum_range_m: 1500.0, ..settings };
+        let table = compute_transmission_loss(&waters, &grid, &settings, &|_, _| {}).unwrap();
+        assert!(table.loss_db(CellId(0), CellId(15)) > 199.0);
+        assert!(table.loss_db(CellId(0), CellId(1)) < 80.0);
+    }
+
+    #[test]
+    fn settings_are_checked() {
+        let (waters, grid, settings) = setting(|_| {});
+        let settings = LossTableSettings { frequency_hz: -1.0, ..settings };
+        let refused = compute_transmission_loss(&waters, &grid, &settings, &|_, _| {});
+        assert!(matches!(refused, Err(TransmissionLossError::NotPositive { .. })));
+    }
+
+    #[test]
+    fn the_standard_quality_is_near_the_fine_one() {
+        let (waters, grid, mut settings) = setting(|_| {});
+        settings.numerics = Quality::Standard.numerics();
+        let sources = [CellId(5)];
+        let row = compute_rows(&waters, &grid, &settings, &sources, &|_, _| {}).unwrap();
+        let mut loss_db = vec![0.0; 256];
+        loss_db[5 * 16..6 * 16].copy_from_slice(&row[0]);
+        let table = TransmissionLossTable { cell_count: 16, loss_db };
+        let estimate =
+            estimate_error(&table, &waters, &grid, &settings, &sources, &|_, _| {}).unwrap();
+        assert_eq!(estimate.compared, 16);
+        assert!(estimate.median_db < 0.3, "{estimate:?}");
+    }
 }
