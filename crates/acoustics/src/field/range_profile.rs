@@ -8,19 +8,19 @@ use std::f64::consts::{PI, TAU};
 
 /// Gaussians are cut off at this many standard deviations; what is left out is
 /// 3·10⁻⁴ of the middle.
-const REACH: f64 = 4.0;
+pub(super) const REACH: f64 = 4.0;
 
 /// Vertical reach over reach across the ray, 1/cos θ, that the quick test of a
 /// segment allows for: beams of rays steeper than 80° may lose their rims.
-const STEEPEST_SECANT: f64 = 6.0;
+pub(super) const STEEPEST_SECANT: f64 = 6.0;
 
 /// No water is faster, m/s.
-const FASTEST_M_S: f64 = 1700.0;
+pub(super) const FASTEST_M_S: f64 = 1700.0;
 
 /// Standard deviation of the window over which intensities are averaged in
 /// range, in steps of the profile. Samples one step apart then add up to the
 /// whole within 1.5 %, which averages out over a fan.
-const WINDOW_STEPS: f64 = 0.5;
+pub(super) const WINDOW_STEPS: f64 = 0.5;
 
 /// Incoherent intensity against range at one receiver depth, averaged over range
 /// with a Gaussian window as wide as the steps.

@@ -3,11 +3,6 @@ use super::medium::{Column, Medium};
 use super::segment::{Burden, Pair, Segment, SegmentSink};
 use crate::environment::Boundary;
 
-/// Layers thicker than this take their gradient from the middle of each
-/// segment where sound speed depends on range; in thinner ones the gradient at
-/// the middle of the cell serves.
-const CORRECTED_LAYER_M: f64 = 20.0;
-
 /// Smallest vertical slowness after a crossing, as a fraction of the horizontal: a ray that turns
 /// exactly at a level must not stall on it.
 const LEAST_SLOPE: f64 = 1e-7;
@@ -125,14 +120,7 @@ impl Tracer<'_> {
     fn segment(&self, ray: &State) -> (Segment, Meeting) {
         let cell = self.medium.cell(ray.column, ray.layer);
         let layer = self.medium.layers[ray.layer];
-        let mut gradient = cell.gradient;
-        if cell.twist != 0.0 && layer.half_height > 0.5 * CORRECTED_LAYER_M {
-            gradient = cell.gradient_at(ray.local);
-            let (sigma, _) = self.next_meeting(ray, gradient);
-            let half = 0.5 * sigma;
-            gradient =
-                cell.gradient_at(ray.local + ray.slowness * half + gradient * (0.5 * half * half));
-        }
+        let gradient = cell.gradient_at(self.midway(ray));
         let (sigma, meeting) = self.next_meeting(ray, gradient);
         let middle = Pair::new(self.medium.columns[ray.column].middle, layer.middle);
         let segment = Segment {
@@ -145,6 +133,18 @@ impl Tracer<'_> {
             burden: ray.burden,
         };
         (segment, meeting)
+    }
+
+    /// About the middle of the coming segment, if it were straight: where sound
+    /// speed depends on range, G is taken there.
+    fn midway(&self, ray: &State) -> Pair {
+        let (column, layer) = (self.medium.columns[ray.column], self.medium.layers[ray.layer]);
+        let until = |half: f64, place: f64, speed: f64| {
+            (half - place.copysign(place * speed)).max(0.0) / speed.abs().max(1e-30)
+        };
+        let sigma = until(column.half_width, ray.local.x, ray.slowness.x)
+            .min(until(layer.half_height, ray.local.z, ray.slowness.z));
+        ray.local + ray.slowness * (0.5 * sigma)
     }
 
     #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]

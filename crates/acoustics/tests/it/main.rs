@@ -1,6 +1,7 @@
 //! Integration tests of the acoustics crate.
 
 mod analytic;
+mod batch;
 mod bellhop_files;
 mod properties;
 mod reference;
