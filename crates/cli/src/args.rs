@@ -53,8 +53,10 @@ pub(crate) enum Command {
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  sonarfleet run\n  sonarfleet run mission.toml --output out\n  \
-    sonarfleet run mission.toml --output out --resume    continue a killed run")]
+#[command(
+    after_help = "Examples:\n  sonarfleet run\n  sonarfleet run mission.toml --output out\n  \
+    sonarfleet run mission.toml --output out --resume    continue a killed run"
+)]
 pub(crate) struct RunArgs {
     /// Scenario [default: the embedded one]
     pub(crate) scenario: Option<PathBuf>,
@@ -243,9 +245,7 @@ fn parse_place(text: &str) -> Result<Place, String> {
         .split_once(',')
         .and_then(|(x, y)| Some((x.trim().parse::<f64>().ok()?, y.trim().parse::<f64>().ok()?)));
     match pair {
-        Some((x, y)) if !(x.is_finite() && y.is_finite()) => {
-            Err(format!("{x},{y} is not a place"))
-        }
+        Some((x, y)) if !(x.is_finite() && y.is_finite()) => Err(format!("{x},{y} is not a place")),
         Some((x, y)) if kilometres => Ok(Place::Kilometres(x, y)),
         Some((longitude, latitude)) if latitude.abs() <= 90.0 => {
             Ok(Place::Degrees(longitude, latitude))

@@ -74,3 +74,9 @@ pub enum ReportError {
 
 /// A result whose error says why a record could not be drawn.
 pub(crate) type Result<T> = std::result::Result<T, ReportError>;
+
+/// Writes a whole file or none.
+pub(crate) fn written(path: &std::path::Path, contents: &[u8]) -> Result<()> {
+    sonarfleet::replace_file(path, contents)
+        .map_err(|source| ReportError::Write { path: path.to_owned(), source })
+}

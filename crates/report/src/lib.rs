@@ -5,7 +5,6 @@
 //! [`RunRecord`](sonarfleet::record::RunRecord) holds. Fonts and colour tables
 //! are embedded, so the same record gives the same pictures on every machine.
 
-mod atomic;
 mod canvas;
 mod colour;
 mod contour;

@@ -10,7 +10,6 @@
 //! levels in dB re 1 µPa (sources at 1 m).
 
 pub mod assignment;
-pub mod atomic;
 pub mod grid;
 pub mod mission;
 pub mod navigation;
@@ -20,6 +19,8 @@ pub mod random;
 pub mod record;
 pub mod scenario;
 pub mod sonar;
+
+pub use sonarfleet_ocean::io::replace_file;
 
 /// Version of the names and meanings in the files we write (`sonarfleet_format`).
 pub const FILE_FORMAT: f64 = 1.0;

@@ -2,8 +2,8 @@
 //! that name the file and the key.
 
 use npyz::{NpyFile, Order, WriterBuilder};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Cursor, Write};
+use std::fs;
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use zip::result::ZipError;
@@ -284,20 +284,13 @@ pub struct NamedArray<'a> {
 /// Where a shape is not that of its values.
 pub fn write(path: impl AsRef<Path>, arrays: &[NamedArray]) -> Result<(), NpzError> {
     let path = path.as_ref();
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(format!(".{}.part", std::process::id()));
-    let temporary = PathBuf::from(temporary);
-    write_archive(&temporary, arrays).and_then(|()| fs::rename(&temporary, path)).map_err(
-        |source| {
-            // The first error is the one to report; there may be nothing to remove.
-            let _ = fs::remove_file(&temporary);
-            NpzError::Io { path: path.to_path_buf(), source }
-        },
-    )
+    archive_of(arrays)
+        .and_then(|bytes| crate::replace_file(path, &bytes))
+        .map_err(|source| NpzError::Io { path: path.to_path_buf(), source })
 }
 
-fn write_archive(path: &Path, arrays: &[NamedArray]) -> io::Result<()> {
-    let mut zip = ZipWriter::new(BufWriter::new(File::create(path)?));
+fn archive_of(arrays: &[NamedArray]) -> io::Result<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // A fixed date: the same arrays give the same bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -312,7 +305,7 @@ fn write_archive(path: &Path, arrays: &[NamedArray]) -> io::Result<()> {
             Values::Bytes(values) => write_npy(&mut zip, array.shape, values),
         }?;
     }
-    zip.finish()?.into_inner()?.sync_all()
+    Ok(zip.finish()?.into_inner())
 }
 
 fn write_npy<T: npyz::AutoSerialize + Copy>(

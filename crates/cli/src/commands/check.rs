@@ -17,7 +17,9 @@ pub(crate) fn check(args: &CheckArgs, manner: Manner) -> Result<()> {
         if !manner.quiet {
             println!("{}", describe(&scenario, &theatre));
         }
-        findings.iter().for_each(|finding| println!("note: {finding}"));
+        for finding in &findings {
+            println!("note: {finding}");
+        }
         println!("The scenario can be run.");
         Ok(())
     }

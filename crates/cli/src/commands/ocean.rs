@@ -7,11 +7,11 @@ use jiff::Timestamp;
 use serde_json::json;
 use sonarfleet::scenario::{OceanSource, Scenario, ScenarioFile};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
+use sonarfleet_ocean::Column;
 use sonarfleet_ocean::io::{
     ForecastRequest, download_request, inspect, read_forecast, write_bathymetry, write_forecast,
 };
 use sonarfleet_ocean::synthetic::{SyntheticOcean, TITLE};
-use sonarfleet_ocean::Column;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,9 @@ fn show(files: &[PathBuf], manner: Manner) -> Result<()> {
     if manner.json {
         return super::print_json(&inspections);
     }
-    inspections.iter().for_each(|inspection| println!("{inspection}"));
+    for inspection in &inspections {
+        println!("{inspection}");
+    }
     Ok(())
 }
 
@@ -129,7 +131,9 @@ fn synthesise(directory: &Path, scenario: Option<&Path>, manner: Manner) -> Resu
     }
     if !manner.quiet {
         println!("{TITLE}");
-        written.iter().for_each(|path| println!("  {}", path.display()));
+        for path in &written {
+            println!("  {}", path.display());
+        }
     }
     Ok(())
 }
@@ -140,7 +144,12 @@ fn request(path: Option<&Path>, manner: Manner) -> Result<()> {
         None => Scenario::embedded().file,
     };
     // The files it names need not exist yet: only where and when matters.
-    file = ScenarioFile { region: file.region, time: file.time, navigation: file.navigation, ..ScenarioFile::default() };
+    file = ScenarioFile {
+        region: file.region,
+        time: file.time,
+        navigation: file.navigation,
+        ..ScenarioFile::default()
+    };
     let origin = path.map_or("embedded scenario".into(), |path| path.display().to_string());
     let scenario = Scenario::check(file, &origin, Path::new(""))?;
     let run_h = scenario.epoch_h * scenario.epochs.len() as f64;

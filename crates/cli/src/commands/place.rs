@@ -18,8 +18,8 @@ pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
     if let Some(count) = args.count {
         problem.vehicles = count;
     }
-    let problem = PlacementProblem::new(&problem)
-        .with_context(|| format!("{}", args.input.display()))?;
+    let problem =
+        PlacementProblem::new(&problem).with_context(|| format!("{}", args.input.display()))?;
     let method: Method = match &args.method {
         Some(name) => name.parse()?,
         None => defaults.method,

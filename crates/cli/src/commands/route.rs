@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use sonarfleet::grid::{CellId, Position};
 use sonarfleet::mission::Theatre;
 use sonarfleet::navigation::{
-    CurrentField, NamedRoute, NavigationInstance, Plan, Planner, Route, TimeOptimal,
-    TransitDomain, TravelTimes, Trip, Vehicle, Waters, write_matrix, write_routes,
+    CurrentField, NamedRoute, NavigationInstance, Plan, Planner, Route, TimeOptimal, TransitDomain,
+    TravelTimes, Trip, Vehicle, Waters, write_matrix, write_routes,
 };
 use sonarfleet::scenario::{PlannerName, Scenario};
 use sonarfleet_ocean::{LocalFrame, Region};

@@ -7,9 +7,7 @@ use anyhow::Result;
 use serde_json::json;
 use sonarfleet::mission::{Event, Mission, Theatre};
 use sonarfleet::navigation::{NamedRoute, write_routes};
-use sonarfleet::record::{
-    Checkpoint, EpochRecord, Provenance, RunDirectory, RunRecord, write_run,
-};
+use sonarfleet::record::{Checkpoint, EpochRecord, Provenance, RunDirectory, RunRecord, write_run};
 use sonarfleet::scenario::Scenario;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -42,9 +40,14 @@ pub(crate) fn run(args: &RunArgs, manner: Manner) -> Result<()> {
 
 /// The first of sonarfleet-run-1, -2, … that is free.
 fn first_free() -> PathBuf {
-    let name = |k: u32| PathBuf::from(format!("sonarfleet-run-{k}"));
-    let taken = |path: &PathBuf| path.exists() || path.with_extension("partial").exists();
-    (1..).map(name).find(|path| !taken(path)).unwrap_or_else(|| name(0))
+    let mut k = 1;
+    loop {
+        let path = PathBuf::from(format!("sonarfleet-run-{k}"));
+        if !path.exists() && !path.with_extension("partial").exists() {
+            return path;
+        }
+        k += 1;
+    }
 }
 
 /// Runs all epochs that are not done yet and writes everything down.
@@ -53,17 +56,15 @@ fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Resu
         Provenance::new(scenario.resolved(), scenario.file.seed, scenario.input_files())?;
     let theatre = Theatre::of(scenario)?;
     let (solver, planner) = (scenario.method.solver(), scenario.planner());
-    let mission = Mission {
-        scenario,
-        theatre: &theatre,
-        solver: solver.as_ref(),
-        planner: planner.as_ref(),
-    };
-    let mut state = Checkpoint::load(directory.path(), &provenance.fingerprint)?
-        .unwrap_or_else(|| Checkpoint {
-            fingerprint: provenance.fingerprint.clone(),
-            fleet: scenario.fleet.clone(),
-            epochs: Vec::new(),
+    let mission =
+        Mission { scenario, theatre: &theatre, solver: solver.as_ref(), planner: planner.as_ref() };
+    let mut state =
+        Checkpoint::load(directory.path(), &provenance.fingerprint)?.unwrap_or_else(|| {
+            Checkpoint {
+                fingerprint: provenance.fingerprint.clone(),
+                fleet: scenario.fleet.clone(),
+                epochs: Vec::new(),
+            }
         });
     for epoch in state.epochs.len()..scenario.epochs.len() {
         let teller = Teller::new(manner, scenario.epochs.len());
@@ -76,8 +77,8 @@ fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Resu
     let record = mission.run_record(state.epochs);
     write_run(directory.path(), &provenance, &record)?;
     export_routes(directory.path(), scenario, &record)?;
-    sonarfleet_report::write_figures(&record, &directory.path().join("figures"))?;
-    sonarfleet_report::write_report(&record, &directory.path().join("report.html"))?;
+    sonarfleet_report::write_figures(&record, directory.path().join("figures"))?;
+    sonarfleet_report::write_report(&record, directory.path().join("report.html"))?;
     Checkpoint::remove(directory.path())?;
     Ok(record)
 }

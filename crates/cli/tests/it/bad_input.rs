@@ -22,7 +22,9 @@ fn but(from: &str, to: &str) -> String {
 
 /// The test scenario on files.
 fn on_files(states: &str, bathymetry: &str) -> String {
-    format!("{SCENARIO}\n[ocean]\nsource = \"files\"\nfiles = [{states}]\nbathymetry = {bathymetry}\n")
+    format!(
+        "{SCENARIO}\n[ocean]\nsource = \"files\"\nfiles = [{states}]\nbathymetry = {bathymetry}\n"
+    )
 }
 
 #[test]
@@ -33,12 +35,20 @@ fn scenario_mistakes() {
     assert!(complaint.contains("absent.toml"), "{complaint}");
 
     assert_refused(home, "name = ", &["bad.toml", "line 1"]);
-    assert_refused(home, &but("vehicles = 4", "vehicels = 4"), &["bad.toml", "vehicels", "vehicles"]);
+    assert_refused(
+        home,
+        &but("vehicles = 4", "vehicels = 4"),
+        &["bad.toml", "vehicels", "vehicles"],
+    );
     let quiet = but("source_level_db = 130.0", "source_level_db = 13.0");
     assert_refused(home, &quiet, &["bad.toml", "sonar.source_level_db", "13", "60 to 260 dB"]);
     let metres = but("transit_margin_km = 3.0", "transit_margin_km = 3000.0");
     assert_refused(home, &metres, &["navigation.transit_margin_km", "3000", "0 to 1000 km"]);
-    assert_refused(home, &but("vehicles = 4", "vehicles = 37"), &["fleet.vehicles", "37", "1 to 36"]);
+    assert_refused(
+        home,
+        &but("vehicles = 4", "vehicles = 37"),
+        &["fleet.vehicles", "37", "1 to 36"],
+    );
     let far = but("[[0.5, 1.0], [0.5, 5.0]]", "[[0.5, 1.0], [0.5, 99.0]]");
     assert_refused(home, &far, &["fleet.entry_line_km", "99"]);
     let unknown = but("evaluations = 5000", "method = \"magic\"");
@@ -51,12 +61,18 @@ fn scenario_mistakes() {
     assert_refused(home, &area, &["deployable.exclusions", "area.json", "no such file"]);
     write(home, "area.json", "{\"type\":\"Point\",\"coordinates\":[118.2,21.7]}");
     assert_refused(home, &area, &["area.json", "no polygon"]);
-    let everywhere = r#"{"type":"Polygon","coordinates":[[[118,21],[119,21],[119,22],[118,22],[118,21]]]}"#;
+    let everywhere =
+        r#"{"type":"Polygon","coordinates":[[[118,21],[119,21],[119,22],[118,22],[118,21]]]}"#;
     write(home, "area.json", everywhere);
     assert_refused(home, &area, &["none of the 36 cells", "200 m"]);
     let corner = r#"{"type":"Polygon","coordinates":[[[118.205,21],[119,21],[119,22],[118.205,22],[118.205,21]]]}"#;
     write(home, "area.json", corner);
-    assert_refused(home, &but("vehicles = 4", "vehicles = 20").replace("[time]", "[deployable]\nexclusions = \"area.json\"\n[time]"), &["20 vehicles", "deployable"]);
+    assert_refused(
+        home,
+        &but("vehicles = 4", "vehicles = 20")
+            .replace("[time]", "[deployable]\nexclusions = \"area.json\"\n[time]"),
+        &["20 vehicles", "deployable"],
+    );
 }
 
 #[test]

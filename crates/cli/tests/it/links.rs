@@ -64,8 +64,16 @@ fn a_route_in_every_format() {
         assert!(fs::read_to_string(home.join(&name)).unwrap().contains("118.2"), "{format}");
     }
     for pilot in ["time-optimal", "crab"] {
-        let arguments =
-            ["route", "test.toml", "--from", "118.21,21.71", "--to", "118.25,21.75", "--pilot", pilot];
+        let arguments = [
+            "route",
+            "test.toml",
+            "--from",
+            "118.21,21.71",
+            "--to",
+            "118.25,21.75",
+            "--pilot",
+            pilot,
+        ];
         let said = json(home, &arguments);
         assert_eq!(said["pilot"], pilot);
         assert_eq!(said["routes"][0]["arrived"], true);

@@ -2,6 +2,7 @@
 
 use super::attribute::{Attribute, AttributeValue};
 use super::source::{DataSource, Dimension, VariableInfo};
+use super::whole_file::replace_file;
 use crate::OceanError;
 use netcdf_writer::{DimensionId, NcFileBuilder, NcFillValueType, NcWriteFormat, NcWriteOptions};
 use std::ops::Range;
@@ -278,16 +279,4 @@ fn encoded(value: &AttributeValue) -> netcdf_reader::NcAttrValue {
         AttributeValue::I16(values) => NcAttrValue::Shorts(values.clone()),
         AttributeValue::I32(values) => NcAttrValue::Ints(values.clone()),
     }
-}
-
-/// Writes a file under a temporary name beside it, then renames.
-fn replace_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let name = path.file_name().ok_or(std::io::ErrorKind::InvalidInput)?.to_string_lossy();
-    let partial = path.with_file_name(format!(".{}.{name}.partial", std::process::id()));
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
-    if written.is_err() {
-        // Best effort: the error that matters is the one of writing.
-        let _ = std::fs::remove_file(&partial);
-    }
-    written
 }

@@ -21,6 +21,7 @@ mod request;
 mod selection;
 mod source;
 mod time;
+mod whole_file;
 mod write;
 
 pub use attribute::{Attribute, AttributeValue};
@@ -31,4 +32,5 @@ pub use inspect::{AxisInspection, Inspection, VariableInspection, inspect};
 pub use netcdf_file::NetcdfFile;
 pub use request::download_request;
 pub use source::{DataSource, Dimension, Field, VariableInfo, read_field};
+pub use whole_file::replace_file;
 pub use write::{write_bathymetry, write_forecast};

@@ -7,9 +7,10 @@ mod routes;
 mod sound_speed;
 
 use crate::canvas::{self, Align, Canvas};
+use crate::error::written;
 use crate::error::{ReportError, Result};
 use crate::plot::REMARK;
-use crate::{atomic, ticks, valid};
+use crate::{ticks, valid};
 use sonarfleet::record::{EpochRecord, RunRecord};
 use std::path::{Path, PathBuf};
 
@@ -62,9 +63,9 @@ fn write(canvas: &Canvas, name: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
         move |reason| ReportError::Draw { path, reason }
     };
     let svg = name.with_extension("svg");
-    atomic::write(&svg, canvas::to_svg(canvas).map_err(failed(&svg))?.as_bytes())?;
+    written(&svg, canvas::to_svg(canvas).map_err(failed(&svg))?.as_bytes())?;
     let png = name.with_extension("png");
-    atomic::write(&png, &canvas::to_png(canvas).map_err(failed(&png))?)?;
+    written(&png, &canvas::to_png(canvas).map_err(failed(&png))?)?;
     files.extend([svg, png]);
     Ok(())
 }

@@ -3,9 +3,10 @@
 mod pack;
 mod view;
 
+use crate::error::written;
 use crate::error::{ReportError, Result};
 use crate::figures::region_deg;
-use crate::{atomic, colour, valid};
+use crate::{colour, valid};
 use serde::Serialize;
 use sonarfleet::record::RunRecord;
 use std::path::Path;
@@ -55,7 +56,7 @@ pub fn write_report(record: &RunRecord, path: impl AsRef<Path>) -> Result<()> {
         "script" => scripts.clone(),
         other => unreachable!("the page has no slot `{other}`"),
     });
-    atomic::write(path, page.as_bytes())
+    written(path, page.as_bytes())
 }
 
 /// cmocean's colours, low to high, six hexadecimal digits each.

@@ -159,10 +159,10 @@ fn epoch(
     EpochRecord {
         epoch: index,
         seconds: [("ocean", 0.4), ("transmission loss", 21.7), ("placement", 3.9)]
-                .into_iter()
-                .chain([("travel times", 6.2), ("assignment", 0.01), ("execution", 0.3)])
-                .map(|(stage, seconds)| (stage.to_owned(), seconds))
-                .collect(),
+            .into_iter()
+            .chain([("travel times", 6.2), ("assignment", 0.01), ("execution", 0.3)])
+            .map(|(stage, seconds)| (stage.to_owned(), seconds))
+            .collect(),
         time: format!("2025-10-{:02}T{:02}:00:00Z", 9 + index / 4, index * 6 % 24),
         start_h,
         duration_h: EPOCH_H,

@@ -47,8 +47,7 @@ pub(super) fn sound_speed(
             column.salinity_psu[level],
             depth_m[level],
             *latitude,
-        )
-            as f32,
+        ) as f32,
         _ => f32::NAN,
     };
     let speed_m_s = (0..shown * points).map(|k| speed(k / points, k % points)).collect();

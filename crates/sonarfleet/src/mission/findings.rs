@@ -36,13 +36,16 @@ fn land(scenario: &Scenario, theatre: &Theatre, findings: &mut Vec<String>) {
 }
 
 fn time(scenario: &Scenario, theatre: &Theatre, findings: &mut Vec<String>) {
-    let hours = |state: &OceanState| state.time.duration_since(scenario.start).as_secs_f64() / 3600.0;
+    let hours =
+        |state: &OceanState| state.time.duration_since(scenario.start).as_secs_f64() / 3600.0;
     let times: Vec<f64> = theatre.forecast.states.iter().map(hours).collect();
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
     if let Some(&median) = sorted.get(sorted.len() / 2) {
-        for (step, from) in steps.iter().zip(&times).filter(|(step, _)| **step > GAP_FACTOR * median) {
+        for (step, from) in
+            steps.iter().zip(&times).filter(|(step, _)| **step > GAP_FACTOR * median)
+        {
             findings.push(format!(
                 "the ocean data have a gap of {step:.1} h at hour {from:.1} (elsewhere {median:.1} h); \
                  states are interpolated across it"

@@ -58,7 +58,7 @@ impl Mission<'_> {
         let moved: Vec<Position> =
             movement.travelled.iter().map(|route| route.last().position).collect();
         let outcome = Outcome { placement, travel, posts, movement };
-        let record = self.update_knowledge(epoch, &environment, outcome, [fleet, &moved], clock); // step 6
+        let record = self.update_knowledge(epoch, &environment, &outcome, [fleet, &moved], clock); // step 6
         observer(Event::Epoch(&record));
         Ok((record, moved))
     }
@@ -95,8 +95,7 @@ impl Mission<'_> {
         fleet: &[Position],
         clock: &mut Clock<'_>,
     ) -> Result<(Box<dyn Plan + '_>, TravelTimes), MissionError> {
-        let waters =
-            Waters { currents: &self.theatre.currents, domain: self.scenario.domain };
+        let waters = Waters { currents: &self.theatre.currents, domain: self.scenario.domain };
         let posts: Vec<Position> =
             placement.cells.iter().map(|&cell| self.scenario.grid.centre(cell)).collect();
         let departure_h = self.scenario.epochs[epoch].start_h;
@@ -114,7 +113,8 @@ impl Mission<'_> {
         clock: &mut Clock<'_>,
     ) -> Result<Vec<usize>, MissionError> {
         let costs = CostMatrix::new(travel.starts(), travel.goals(), travel.assignment_costs_h())?;
-        let assignment = clock.time(Stage::Assignment, |_| assign(&costs, self.scenario.objective))?;
+        let assignment =
+            clock.time(Stage::Assignment, |_| assign(&costs, self.scenario.objective))?;
         let posts = assignment.column_of_row.into_iter();
         Ok(posts.map(|post| post.expect("as many posts as vehicles")).collect())
     }

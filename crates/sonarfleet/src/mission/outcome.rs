@@ -32,7 +32,7 @@ impl Mission<'_> {
         &self,
         epoch: usize,
         environment: &Environment,
-        outcome: Outcome,
+        outcome: &Outcome,
         [start, end]: [&[Position]; 2],
         clock: Clock<'_>,
     ) -> EpochRecord {
@@ -42,7 +42,7 @@ impl Mission<'_> {
         let random = RandomSearch.solve(problem, Budget::Evaluations(1), scenario.seed_of(epoch));
         let at_start = problem.evaluate(&self.cells_of(start));
         let at_end = problem.evaluate(&self.cells_of(end));
-        let Outcome { placement, travel, posts, movement } = &outcome;
+        let Outcome { placement, travel, posts, movement } = outcome;
         let expected_h: Vec<f64> = posts
             .iter()
             .enumerate()
@@ -88,7 +88,7 @@ impl Mission<'_> {
             ),
             current: excerpts::current(&theatre.currents, scenario.domain, plan.start_h),
             layout: placement.cells.clone(),
-            routes: (0..start.len()).map(|vehicle| route_record(vehicle, &outcome)).collect(),
+            routes: (0..start.len()).map(|vehicle| route_record(vehicle, outcome)).collect(),
             metrics,
             seconds: clock.seconds,
         }
@@ -103,7 +103,11 @@ impl Mission<'_> {
             version: env!("CARGO_PKG_VERSION").into(),
             seed: scenario.file.seed,
             grid: scenario.grid,
-            cell_longitude_deg: theatre.cell_degrees.iter().map(|&(longitude, _)| longitude).collect(),
+            cell_longitude_deg: theatre
+                .cell_degrees
+                .iter()
+                .map(|&(longitude, _)| longitude)
+                .collect(),
             cell_latitude_deg: theatre.cell_degrees.iter().map(|&(_, latitude)| latitude).collect(),
             cell_depth_m: theatre.cell_depth_m.iter().map(|&depth| depth as f32).collect(),
             blocked_cells: theatre.blocked_cells(),

@@ -48,7 +48,8 @@ impl Theatre {
             scenario.start,
         )?;
         let currents = currents.closed_where(|position| {
-            let (longitude, latitude) = scenario.frame.to_geographic(position.east_m, position.north_m);
+            let (longitude, latitude) =
+                scenario.frame.to_geographic(position.east_m, position.north_m);
             let depth_m = bathymetry.depth_m(longitude, latitude);
             depth_m.is_some_and(|depth_m| depth_m <= scenario.fleet_depth_m)
         })?;

@@ -1,10 +1,10 @@
 //! Placement methods by name.
 
+use super::Solver;
 use super::annealing::Annealing;
 use super::greedy::{ConnectedGreedy, Greedy};
 use super::local_search::LocalSearch;
 use super::random::RandomSearch;
-use super::Solver;
 use std::str::FromStr;
 use thiserror::Error;
 

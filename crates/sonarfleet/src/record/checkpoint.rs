@@ -25,9 +25,11 @@ impl Checkpoint {
     /// If the file cannot be written.
     pub fn save(&self, directory: &Path) -> Result<(), RecordError> {
         let path = directory.join(Self::FILE);
-        let bytes = postcard::to_stdvec(self)
-            .map_err(|error| RecordError::Checkpoint { path: path.clone(), reason: error.to_string() })?;
-        crate::atomic::write(&path, &bytes).map_err(RecordError::io(path))
+        let bytes = postcard::to_stdvec(self).map_err(|error| RecordError::Checkpoint {
+            path: path.clone(),
+            reason: error.to_string(),
+        })?;
+        crate::replace_file(&path, &bytes).map_err(RecordError::io(path))
     }
 
     /// Whether a run directory holds a checkpoint.
@@ -46,8 +48,9 @@ impl Checkpoint {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(source) => return Err(RecordError::Io { path, source }),
         };
-        let checkpoint: Self = postcard::from_bytes(&bytes)
-            .map_err(|error| RecordError::Checkpoint { path: path.clone(), reason: error.to_string() })?;
+        let checkpoint: Self = postcard::from_bytes(&bytes).map_err(|error| {
+            RecordError::Checkpoint { path: path.clone(), reason: error.to_string() }
+        })?;
         if checkpoint.fingerprint == fingerprint {
             Ok(Some(checkpoint))
         } else {

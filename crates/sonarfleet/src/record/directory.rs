@@ -83,10 +83,7 @@ mod tests {
     fn a_part_never_has_the_name_of_a_whole() {
         let home = tempfile::tempdir().unwrap();
         let whole = home.path().join("out");
-        assert!(matches!(
-            RunDirectory::resume(&whole),
-            Err(RecordError::NothingToResume { .. })
-        ));
+        assert!(matches!(RunDirectory::resume(&whole), Err(RecordError::NothingToResume { .. })));
 
         let started = RunDirectory::create(&whole).unwrap();
         fs::write(started.path().join("file"), "kept").unwrap();

@@ -2,7 +2,6 @@
 
 use super::epoch_file::write_epoch;
 use super::{EpochMetrics, EpochRecord, Provenance, RecordError, RunRecord};
-use crate::atomic;
 use serde::Serialize;
 use std::path::Path;
 
@@ -17,7 +16,7 @@ pub fn write_run(
 ) -> Result<(), RecordError> {
     let write = |name: &str, contents: &str| {
         let path = directory.join(name);
-        atomic::write(&path, contents.as_bytes()).map_err(RecordError::io(path))
+        crate::replace_file(&path, contents.as_bytes()).map_err(RecordError::io(path))
     };
     write("scenario.toml", &provenance.scenario)?;
     write("run.json", &json(provenance))?;

@@ -49,7 +49,9 @@ impl Exclusions {
                 self.polygons.extend(coordinates.into_iter().map(rings));
             }
             GeometryValue::GeometryCollection { geometries } => {
-                geometries.into_iter().for_each(|geometry| self.collect(geometry.value));
+                for geometry in geometries {
+                    self.collect(geometry.value);
+                }
             }
             _ => {}
         }

@@ -1,10 +1,10 @@
 //! What a scenario file may say: the typed, unchecked form. Every key has the
 //! embedded scenario's value as its default, so a file says only what it changes.
 
+use super::ScenarioError;
 use crate::sonar::prior::LineCorridor;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
-use super::ScenarioError;
 use std::path::{Path, PathBuf};
 
 /// A scenario as written in TOML.

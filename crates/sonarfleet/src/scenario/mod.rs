@@ -185,6 +185,9 @@ impl Scenario {
     }
 
     /// The scenario with every default filled in and every path resolved, TOML.
+    ///
+    /// # Panics
+    /// Never: what was read from TOML can be written as TOML.
     pub fn resolved(&self) -> String {
         let mut file = self.file.clone();
         let here = |path: &mut PathBuf| *path = self.home.join(&*path);

@@ -5,7 +5,9 @@ use crate::grid::{CellId, SurveillanceGrid};
 use crate::npz::{self, Archive, NamedArray, NpzError};
 use serde::{Deserialize, Serialize};
 use sonarfleet_ocean::OceanError;
-use sonarfleet_ocean::io::{Attribute, DataSource, Dataset, Field, NetcdfFile, Values, read_field};
+use sonarfleet_ocean::io::{
+    Attribute, AttributeValue, DataSource, Dataset, Field, NetcdfFile, Values, read_field,
+};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -127,7 +129,10 @@ impl LossRows {
             Values::F32(self.loss_db.clone()),
             &[
                 Attribute::text("units", "dB"),
-                Attribute::text("long_name", "transmission loss re 1 m, averaged over the target cell"),
+                Attribute::text(
+                    "long_name",
+                    "transmission loss re 1 m, averaged over the target cell",
+                ),
                 Attribute::text("coordinates", "longitude latitude"),
             ],
         );
@@ -146,8 +151,16 @@ impl LossRows {
                     shape: &[self.sources.len(), self.cell_degrees.len()],
                     values: npz::Values::F32(&self.loss_db),
                 },
-                NamedArray { key: "source", shape: &[sources.len()], values: npz::Values::I64(&sources) },
-                NamedArray { key: "params", shape: &[about.len()], values: npz::Values::Bytes(&about) },
+                NamedArray {
+                    key: "source",
+                    shape: &[sources.len()],
+                    values: npz::Values::I64(&sources),
+                },
+                NamedArray {
+                    key: "params",
+                    shape: &[about.len()],
+                    values: npz::Values::Bytes(&about),
+                },
             ],
         )
     }
@@ -156,6 +169,9 @@ impl LossRows {
     ///
     /// # Errors
     /// If they were computed for different things, overlap, or leave gaps.
+    ///
+    /// # Panics
+    /// If there are no parts.
     pub fn merge(parts: &[(PathBuf, Self)]) -> Result<Self, LossFileError> {
         let ((_, first), others) = parts.split_first().expect("at least one part");
         for (path, part) in others {
@@ -208,8 +224,7 @@ pub fn read_table(
         Err(LossFileError::Mismatch { path: path.to_owned(), what, found, expected })
     };
     if shape != [cells, cells] {
-        let expected =
-            format!("[{cells}, {cells}] for {} × {} cells", grid.columns, grid.rows);
+        let expected = format!("[{cells}, {cells}] for {} × {} cells", grid.columns, grid.rows);
         return mismatch("the table's shape", format!("{shape:?}"), expected);
     }
     if let Some(index) = values.iter().position(|loss| loss.is_nan()) {
@@ -263,9 +278,9 @@ fn description(path: &Path) -> Result<LossDescription, LossFileError> {
         expected: "there".into(),
     };
     let number =
-        |name| value(name).and_then(|value| value.as_number()).ok_or_else(|| missing(name));
+        |name| value(name).and_then(AttributeValue::as_number).ok_or_else(|| missing(name));
     let text = |name| {
-        let found = value(name).and_then(|value| value.as_text());
+        let found = value(name).and_then(AttributeValue::as_text);
         found.map(str::to_owned).ok_or_else(|| missing(name))
     };
     Ok(LossDescription {

@@ -92,8 +92,7 @@ impl Deposits {
         let start = tables.columns[lanes.column[i] as usize].middle + lanes.local_x[i];
         let end = start + sigma * (px + 0.5 * sigma * gradient_x);
         let sample = |x: f32| (x * self.steps_per_metre + 0.5).max(0.0) as usize;
-        let (first, last) =
-            (sample(start.min(end)), sample(start.max(end)).min(self.sums.len()));
+        let (first, last) = (sample(start.min(end)), sample(start.max(end)).min(self.sums.len()));
         let middle = tables.layers[lanes.layer[i] as usize].middle;
         let below_start = self.depth - middle - lanes.local_z[i];
         for index in first..last {
@@ -114,7 +113,8 @@ impl Deposits {
             let exponent = across * across / variance;
             if exponent < (REACH * REACH) as f32 {
                 let decay = (-0.5 * exponent - self.absorption * path).exp();
-                let strength = lanes.beam_weight[i] * speed * lanes.energy[i] * REFERENCE_M_S as f32;
+                let strength =
+                    lanes.beam_weight[i] * speed * lanes.energy[i] * REFERENCE_M_S as f32;
                 self.sums[index] += f64::from(strength / variance.sqrt() * decay);
             }
         }

@@ -81,7 +81,12 @@ impl Lanes {
     }
 
     /// Puts the next ray, if there is one, into a lane.
-    pub(super) fn refill(&mut self, lane: usize, tables: &Tables, next: Option<(Start, Beam, f64)>) {
+    pub(super) fn refill(
+        &mut self,
+        lane: usize,
+        tables: &Tables,
+        next: Option<(Start, Beam, f64)>,
+    ) {
         let Some((start, beam, weight)) = next else {
             self.met[lane] = Meeting::Idle;
             // An empty lane goes through the motions in the first cell.

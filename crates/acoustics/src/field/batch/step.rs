@@ -140,7 +140,13 @@ pub(super) fn advance(lanes: &mut Lanes, tables: &Tables, deposits: &mut Deposit
         lanes.offset_z[i] = end_z + 0.5 * t * change_z;
 
         let met = which[i];
-        let x = if met == 1 { s.half_width[i] } else if met == 0 { -s.half_width[i] } else { x };
+        let x = if met == 1 {
+            s.half_width[i]
+        } else if met == 0 {
+            -s.half_width[i]
+        } else {
+            x
+        };
         let floor = s.floor[i] + s.slope[i] * x;
         let z = if met == 3 {
             s.half_height[i]
@@ -164,7 +170,13 @@ pub(super) fn advance(lanes: &mut Lanes, tables: &Tables, deposits: &mut Deposit
         let least = LEAST_SLOPE * px;
         let vertical = (excess + lanes.defect[i]).max(least * least).sqrt();
         let pz = pz + t * gz;
-        let downward = if met == 3 { 1.0 } else if met == 2 { -1.0 } else { pz };
+        let downward = if met == 3 {
+            1.0
+        } else if met == 2 {
+            -1.0
+        } else {
+            pz
+        };
         lanes.slowness_z[i] = vertical.copysign(downward);
     }
     const MEETINGS: [Meeting; 5] = [
@@ -251,10 +263,8 @@ fn reflect(lanes: &mut Lanes, i: usize, tables: &Tables, n: [f32; 2], boundary: 
     ];
     let delay = -(offset[0] * n[0] + offset[1] * n[1]) / across;
     let later = [gradient[0] * delay, gradient[1] * delay];
-    let turned = mirror([
-        lanes.offset_slowness_x[i] + later[0],
-        lanes.offset_slowness_z[i] + later[1],
-    ]);
+    let turned =
+        mirror([lanes.offset_slowness_x[i] + later[0], lanes.offset_slowness_z[i] + later[1]]);
     [lanes.offset_slowness_x[i], lanes.offset_slowness_z[i]] =
         [turned[0] - later[0], turned[1] - later[1]];
     [lanes.offset_x[i], lanes.offset_z[i]] = mirror(offset);
@@ -263,7 +273,7 @@ fn reflect(lanes: &mut Lanes, i: usize, tables: &Tables, n: [f32; 2], boundary: 
     let turn = -2.0 * across * n[0];
     lanes.defect[i] -= turn * (2.0 * slowness[0] + turn);
     (lanes.slowness_x[i], lanes.slowness_z[i]) = (px, pz);
-    let coefficient = boundary
-        .reflection(f64::from(along) / REFERENCE_M_S, f64::from(across) / REFERENCE_M_S);
+    let coefficient =
+        boundary.reflection(f64::from(along) / REFERENCE_M_S, f64::from(across) / REFERENCE_M_S);
     lanes.energy[i] *= coefficient.squared_modulus() as f32;
 }

@@ -90,7 +90,7 @@ pub fn write_routes(
 ) -> Result<(), NavigationError> {
     let path = path.as_ref();
     let text = RouteFormat::of_path(path)?.text(routes, frame, run_start)?;
-    std::fs::write(path, text)
+    crate::replace_file(path, text.as_bytes())
         .map_err(|source| NavigationError::Write { path: path.to_path_buf(), source })
 }
 

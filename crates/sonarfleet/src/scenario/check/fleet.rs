@@ -3,9 +3,7 @@
 use super::{Checker, M_PER_KM};
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use crate::navigation::{TransitDomain, Vehicle};
-use crate::scenario::{
-    DeployableSection, Exclusions, FleetSection, ScenarioError, ScenarioFile,
-};
+use crate::scenario::{DeployableSection, Exclusions, FleetSection, ScenarioError, ScenarioFile};
 use sonarfleet_ocean::LocalFrame;
 
 /// What positions are checked against.
@@ -36,8 +34,11 @@ pub(super) fn positions(
     match positions.iter().find(|&&position| !place.domain.contains(position)) {
         None => Ok(positions),
         Some(outside) => {
-            let found = format!("{:.2} km east, {:.2} km north for a vehicle",
-                outside.east_m / M_PER_KM, outside.north_m / M_PER_KM);
+            let found = format!(
+                "{:.2} km east, {:.2} km north for a vehicle",
+                outside.east_m / M_PER_KM,
+                outside.north_m / M_PER_KM
+            );
             Err(checker.wrong(key, found, "inside the region and its transit margin"))
         }
     }
@@ -75,10 +76,13 @@ pub(super) fn vehicle(
     checker: &Checker<'_>,
     file: &ScenarioFile,
 ) -> Result<Vehicle, ScenarioError> {
-    let speed_m_s =
-        checker.within("fleet.speed_m_s", file.fleet.speed_m_s, (0.01, 10.0), "m/s")?;
-    let arrival_radius_m =
-        checker.within("fleet.arrival_radius_m", file.fleet.arrival_radius_m, (1.0, 5000.0), "m")?;
+    let speed_m_s = checker.within("fleet.speed_m_s", file.fleet.speed_m_s, (0.01, 10.0), "m/s")?;
+    let arrival_radius_m = checker.within(
+        "fleet.arrival_radius_m",
+        file.fleet.arrival_radius_m,
+        (1.0, 5000.0),
+        "m",
+    )?;
     let command_interval_h = checker.within(
         "navigation.command_interval_h",
         file.navigation.command_interval_h,
@@ -96,7 +100,6 @@ pub(super) fn exclusions(
     let Some(path) = &section.exclusions else { return Ok(Exclusions::default()) };
     let key = "deployable.exclusions";
     let path = checker.existing(key, path)?;
-    let text =
-        std::fs::read_to_string(&path).map_err(|error| checker.file(key, &path, error))?;
+    let text = std::fs::read_to_string(&path).map_err(|error| checker.file(key, &path, error))?;
     Exclusions::parse(&text).map_err(|reason| checker.file(key, &path, reason))
 }

@@ -8,8 +8,7 @@ use crate::npz::Archive;
 use crate::placement::Method;
 use crate::scenario::{
     AssignmentSection, BlobSection, EpochPlan, NavigationSection, ObjectiveName, PlacementSection,
-    PriorSection, QualityName, ScenarioError, ScenarioFile,
-    TransmissionLossSection,
+    PriorSection, QualityName, ScenarioError, ScenarioFile, TransmissionLossSection,
 };
 use crate::sonar::prior::{GaussianBlob, TargetPrior};
 use crate::sonar::transmission_loss::Quality;
@@ -99,8 +98,7 @@ fn prior(
                 );
                 return Err(checker.file("prior.path", &path, reason));
             }
-            TargetPrior::new(array.values)
-                .map_err(|error| checker.file("prior.path", &path, error))
+            TargetPrior::new(array.values).map_err(|error| checker.file("prior.path", &path, error))
         }
     }
 }
@@ -156,12 +154,7 @@ pub(super) fn time_optimal(
         )?,
         step_h: checker.within("navigation.step_h", section.step_h, (0.05, 6.0), "h")?,
         headings: checker.count("navigation.headings", section.headings, (4, 360))?,
-        horizon_h: checker.within(
-            "navigation.horizon_h",
-            section.horizon_h,
-            (1.0, 1000.0),
-            "h",
-        )?,
+        horizon_h: checker.within("navigation.horizon_h", section.horizon_h, (1.0, 1000.0), "h")?,
     })
 }
 
