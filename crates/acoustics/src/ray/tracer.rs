@@ -142,8 +142,11 @@ impl Tracer<'_> {
         let until = |half: f64, place: f64, speed: f64| {
             (half - place.copysign(place * speed)).max(0.0) / speed.abs().max(1e-30)
         };
-        let sigma = until(column.half_width, ray.local.x, ray.slowness.x)
-            .min(until(layer.half_height, ray.local.z, ray.slowness.z));
+        let sigma = until(column.half_width, ray.local.x, ray.slowness.x).min(until(
+            layer.half_height,
+            ray.local.z,
+            ray.slowness.z,
+        ));
         ray.local + ray.slowness * (0.5 * sigma)
     }
 

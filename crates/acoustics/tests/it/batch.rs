@@ -20,16 +20,11 @@ fn hills(seabed: Seabed) -> Section {
     let speeds = range_m.iter().flat_map(|range| {
         base.iter().enumerate().map(move |(k, c)| c + 3.0 * (range / 9000.0 + k as f64).sin())
     });
-    let field = SoundSpeedField::new(
-        range_m.clone(),
-        depth_m,
-        speeds.collect(),
-        ProfileLaw::LinearSpeed,
-    )
-    .unwrap();
+    let field =
+        SoundSpeedField::new(range_m.clone(), depth_m, speeds.collect(), ProfileLaw::LinearSpeed)
+            .unwrap();
     let nodes: Vec<f64> = (-12..=60).map(|k| f64::from(k) * 333.0).collect();
-    let floor =
-        nodes.iter().map(|x| 900.0 + x / 50.0 + 60.0 * (TAU * x / 5000.0).sin()).collect();
+    let floor = nodes.iter().map(|x| 900.0 + x / 50.0 + 60.0 * (TAU * x / 5000.0).sin()).collect();
     let bottom = Boundary::Fluid(seabed.half_space());
     Section::new(field, Bathymetry::new(nodes, floor).unwrap(), bottom).unwrap()
 }
