@@ -10,9 +10,12 @@ use std::f64::consts::{PI, TAU};
 /// 3·10⁻⁴ of the middle.
 pub(super) const REACH: f64 = 4.0;
 
-/// Vertical reach over reach across the ray, 1/cos θ, that the quick test of a
-/// segment allows for: beams of rays steeper than 80° may lose their rims.
-pub(super) const STEEPEST_SECANT: f64 = 6.0;
+/// Reach in the quick test of a segment: a tenth more than in deposits, because
+/// slownesses stand for directions there.
+const GENEROUS_REACH: f64 = 1.1 * REACH;
+
+/// Rays steeper than 84° may lose the rims of their beams.
+const LEAST_FLATNESS: f64 = 0.1;
 
 /// No water is faster, m/s.
 pub(super) const FASTEST_M_S: f64 = 1700.0;
@@ -102,9 +105,7 @@ impl<'a> RangeProfiler<'a> {
             depth: receiver_depth_m,
             step: step_m,
             steps_per_metre: step_m.recip(),
-            least_reach: REACH
-                * STEEPEST_SECANT
-                * (PI * FASTEST_M_S / source.frequency_hz + WINDOW_STEPS * step_m),
+            widest_least: PI * FASTEST_M_S / source.frequency_hz,
             window: WINDOW_STEPS * step_m,
             frequency: source.frequency_hz,
             absorption: 2.0 * absorption_db_km / (1000.0 * DB_PER_NEPER),
@@ -131,8 +132,8 @@ struct Deposits {
     depth: f64,
     step: f64,
     steps_per_metre: f64,
-    /// How far beams of least width reach vertically, at most.
-    least_reach: f64,
+    /// Least spread of a beam where sound is fastest.
+    widest_least: f64,
     /// h, metres.
     window: f64,
     frequency: f64,
@@ -163,19 +164,13 @@ impl Deposits {
         if distance <= 0.0 {
             return true;
         }
-        // Most segments are far away: a bound without roots settles that.
-        let tube = |offset: Pair| offset.x.abs() + offset.z.abs();
-        let widest = tube(segment.offset).max(tube(segment.offset_at(segment.sigma)));
-        if distance > self.least_reach + REACH * STEEPEST_SECANT * widest * self.beam_width {
-            return false;
-        }
-        let slowness = segment.slowness;
-        let speed = slowness.dot(slowness).sqrt().recip();
+        let (start, end) = (segment.slowness, segment.slowness_at(segment.sigma));
+        let scale = start.dot(start).sqrt().recip();
         let width = segment.width(0.0).abs().max(segment.width(segment.sigma).abs());
-        let steepest = slowness.z.abs().max(segment.slowness_at(segment.sigma).z.abs()) * speed;
-        let flattest = (1.0 - steepest * steepest).max(1e-6).sqrt();
-        let spread = self.spread(width, speed, segment.burden.time_s + 1.0);
-        distance <= REACH * (spread + self.window * steepest) / flattest
+        let steepest = start.z.abs().max(end.z.abs()) * scale;
+        let flattest = (start.x.abs().min(end.x.abs()) * scale).max(LEAST_FLATNESS);
+        let spread = self.widest_least + width * self.beam_width + self.window * steepest;
+        distance * flattest <= GENEROUS_REACH * spread
     }
 
     fn deposit(&mut self, segment: &Segment, index: usize) {

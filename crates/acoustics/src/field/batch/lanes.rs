@@ -14,7 +14,8 @@ pub(super) struct Lanes {
     pub local_z: Lane,
     pub slowness_x: Lane,
     pub slowness_z: Lane,
-    /// 1 − p_x², kept apart because 1/c² − p_x² is a small difference.
+    /// 1 minus the square of `slowness_x`, kept apart because 1/c² minus that
+    /// square is a small difference.
     pub defect: Lane,
     /// δx = ∂x/∂α, and δp.
     pub offset_x: Lane,
@@ -33,6 +34,17 @@ pub(super) struct Lanes {
     pub bounds: [Bounds; LANES],
     /// What the last step met.
     pub met: [Meeting; LANES],
+}
+
+/// The larger of two numbers. Unlike [`f32::max`] it need not care for NaN, and
+/// is one vector instruction.
+pub(super) fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers.
+pub(super) fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
 }
 
 /// What a ray meets at the end of a step.

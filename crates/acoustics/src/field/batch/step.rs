@@ -1,10 +1,25 @@
 use super::deposit::Deposits;
-use super::lanes::{LANES, Lane, Lanes, Meeting};
-use super::tables::{REFERENCE_M_S, Tables};
+use super::lanes::{LANES, Lane, Lanes, Meeting, larger, smaller};
+use super::tables::{Column, REFERENCE_M_S, Tables};
 use crate::environment::Boundary;
 
-/// Smallest vertical slowness after a crossing over the horizontal.
+/// Smallest vertical slowness after a crossing.
 const LEAST_SLOPE: f32 = 1e-7;
+
+// What a ray meets, as numbers: indices of `MEETINGS`.
+const NODE_BEHIND: u32 = 0;
+const NODE_AHEAD: u32 = 1;
+const LEVEL_ABOVE: u32 = 2;
+const LEVEL_BELOW: u32 = 3;
+const FLOOR: u32 = 4;
+
+const MEETINGS: [Meeting; 5] = [
+    Meeting::NodeBehind,
+    Meeting::NodeAhead,
+    Meeting::LevelAbove,
+    Meeting::LevelBelow,
+    Meeting::Floor,
+];
 
 /// What a step reads of the cells in which the rays are.
 struct Surroundings {
@@ -55,9 +70,11 @@ fn gather(lanes: &Lanes, tables: &Tables) -> Surroundings {
     for i in 0..LANES {
         let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
         let (x, z) = (lanes.local_x[i], lanes.local_z[i]);
-        let until_node = (s.half_width[i] - x.copysign(x * px)).max(0.0) / px.abs().max(1e-12);
-        let until_level = (s.half_height[i] - z.copysign(z * pz)).max(0.0) / pz.abs().max(1e-12);
-        let half = 0.5 * until_node.min(until_level);
+        let until_node =
+            larger(s.half_width[i] - x.copysign(x * px), 0.0) / larger(px.abs(), 1e-12);
+        let until_level =
+            larger(s.half_height[i] - z.copysign(z * pz), 0.0) / larger(pz.abs(), 1e-12);
+        let half = 0.5 * smaller(until_node, until_level);
         s.mean_gradient_x[i] = s.gradient_x[i] + s.twist[i] * (z + half * pz);
         s.mean_gradient_z[i] = s.gradient_z[i] + s.twist[i] * (x + half * px);
     }
@@ -74,39 +91,82 @@ fn solve(lanes: &Lanes, s: &Surroundings, sigma: &mut Lane, which: &mut [u32; LA
         // Levels: the one ahead by 2d/(v + √(v² + 2ad)); else the one behind.
         let down = if pz >= 0.0 { 1.0f32 } else { -1.0 };
         let (speed, push) = (pz.abs(), gz * down);
-        let ahead = (s.half_height[i] - z * down).max(0.0);
-        let behind = (s.half_height[i] + z * down).max(0.0);
+        let ahead = larger(s.half_height[i] - z * down, 0.0);
+        let behind = larger(s.half_height[i] + z * down, 0.0);
         let discriminant = speed * speed + 2.0 * push * ahead;
         let reaches = discriminant >= 0.0;
-        let forth = 2.0 * ahead / (speed + discriminant.max(0.0).sqrt()).max(1e-12);
-        let under_root = (speed * speed - 2.0 * push * behind).max(0.0);
-        let back = (speed + under_root.sqrt()) / (-push).max(1e-20);
+        let forth = 2.0 * ahead / larger(speed + larger(discriminant, 0.0).sqrt(), 1e-12);
+        let under_root = larger(speed * speed - 2.0 * push * behind, 0.0);
+        let back = (speed + under_root.sqrt()) / larger(-push, 1e-20);
         let along = if reaches { forth } else { back };
         let below = (down > 0.0) == reaches;
 
         // Range nodes: p_x never changes its sign within a cell.
         let onward = if px >= 0.0 { 1.0f32 } else { -1.0 };
-        let width = (s.half_width[i] - x * onward).max(0.0);
+        let width = larger(s.half_width[i] - x * onward, 0.0);
         let run = px * px + 2.0 * gx * onward * width;
-        let across = 2.0 * width / (px.abs() + run.max(0.0).sqrt()).max(1e-12);
+        let across = 2.0 * width / larger(px.abs() + larger(run, 0.0).sqrt(), 1e-12);
 
         // The floor.
-        let gap = (s.floor[i] + s.slope[i] * x - z).max(0.0);
+        let gap = larger(s.floor[i] + s.slope[i] * x - z, 0.0);
         let closing = pz - s.slope[i] * px;
         let pull = gz - s.slope[i] * gx;
         let root = closing * closing + 2.0 * pull * gap;
-        let falling = 2.0 * gap / (closing + root.max(0.0).sqrt()).max(1e-12);
-        let rising = (-closing + root.max(0.0).sqrt()) / pull.max(1e-20);
+        let root_speed = larger(root, 0.0).sqrt();
+        let falling = 2.0 * gap / larger(closing + root_speed, 1e-12);
+        let rising = (root_speed - closing) / larger(pull, 1e-20);
         let never = if closing > 0.0 { root < 0.0 } else { pull <= 0.0 };
         let contact = if closing > 0.0 { falling } else { rising };
         let contact = if never { 1e30 } else { contact };
 
         let water = if along <= across { along } else { across };
-        let level = if below { 3u32 } else { 2 };
-        let node = if onward > 0.0 { 1u32 } else { 0 };
+        let level = if below { LEVEL_BELOW } else { LEVEL_ABOVE };
+        let node = if onward > 0.0 { NODE_AHEAD } else { NODE_BEHIND };
         let by_water = if along <= across { level } else { node };
         sigma[i] = if contact <= water { contact } else { water };
-        which[i] = if contact <= water { 4 } else { by_water };
+        which[i] = if contact <= water { FLOOR } else { by_water };
+    }
+}
+
+/// Moves the tubes around the rays to the end of the step.
+fn move_tubes(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
+    for (i, &t) in sigma.iter().enumerate() {
+        let end_x = lanes.offset_x[i] + t * lanes.offset_slowness_x[i];
+        let end_z = lanes.offset_z[i] + t * lanes.offset_slowness_z[i];
+        let mean_x = 0.5 * (lanes.offset_x[i] + end_x);
+        let mean_z = 0.5 * (lanes.offset_z[i] + end_z);
+        let (change_x, change_z) = (s.twist[i] * mean_z * t, s.twist[i] * mean_x * t);
+        lanes.offset_slowness_x[i] += change_x;
+        lanes.offset_slowness_z[i] += change_z;
+        lanes.offset_x[i] = end_x + 0.5 * t * change_x;
+        lanes.offset_z[i] = end_z + 0.5 * t * change_z;
+    }
+}
+
+/// Moves the rays to the end of the step, but for rounding onto what they meet.
+fn move_rays(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
+    for (i, &t) in sigma.iter().enumerate() {
+        let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
+        let (gx, gz) = (s.mean_gradient_x[i], s.mean_gradient_z[i]);
+        // ∫|p|dσ with |p| ≈ (1 + |p|²)/2, and |p|² in the middle of the step.
+        let middle = px * px + pz * pz + t * (px * gx + pz * gz);
+        lanes.path[i] += 0.5 * t * (1.0 + middle);
+
+        let x = lanes.local_x[i] + t * (px + 0.5 * t * gx);
+        let z = lanes.local_z[i] + t * (pz + 0.5 * t * gz);
+        lanes.local_x[i] = x;
+        lanes.local_z[i] = z;
+
+        let turn = t * gx;
+        let defect = lanes.defect[i] - turn * (2.0 * px + turn);
+        lanes.defect[i] = defect;
+        lanes.slowness_x[i] = px + turn;
+        // |p| = 1/c: p_z² = (1/c² − 1) + (1 − p_x²).
+        let slant = s.gradient_x[i] * x + s.gradient_z[i] * z + s.twist[i] * x * z;
+        let excess = s.excess[i] + 2.0 * slant;
+        let least = LEAST_SLOPE * LEAST_SLOPE;
+        let vertical = larger(excess + defect, least).sqrt();
+        lanes.slowness_z[i] = if pz + t * gz >= 0.0 { vertical } else { -vertical };
     }
 }
 
@@ -116,76 +176,10 @@ pub(super) fn advance(lanes: &mut Lanes, tables: &Tables, deposits: &mut Deposit
     let mut sigma = [0.0; LANES];
     let mut which = [0; LANES];
     solve(lanes, &s, &mut sigma, &mut which);
-    deposits.from_step(lanes, tables, &s.mean_gradient_x, &s.mean_gradient_z, &sigma);
+    deposits.take_step(lanes, tables, &s.mean_gradient_x, &s.mean_gradient_z, &sigma);
 
-    for i in 0..LANES {
-        let t = sigma[i];
-        let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
-        let (gx, gz) = (s.mean_gradient_x[i], s.mean_gradient_z[i]);
-        let squared = px * px + pz * pz;
-        // ∫|p|dσ with |p| ≈ (1 + |p|²)/2, and |p|² in the middle of the step.
-        let middle = squared + t * (px * gx + pz * gz);
-        lanes.path[i] += 0.5 * t * (1.0 + middle);
-
-        let x = lanes.local_x[i] + t * (px + 0.5 * t * gx);
-        let z = lanes.local_z[i] + t * (pz + 0.5 * t * gz);
-        let end_x = lanes.offset_x[i] + t * lanes.offset_slowness_x[i];
-        let end_z = lanes.offset_z[i] + t * lanes.offset_slowness_z[i];
-        let (mean_x, mean_z) =
-            (0.5 * (lanes.offset_x[i] + end_x), 0.5 * (lanes.offset_z[i] + end_z));
-        let (change_x, change_z) = (s.twist[i] * mean_z * t, s.twist[i] * mean_x * t);
-        lanes.offset_slowness_x[i] += change_x;
-        lanes.offset_slowness_z[i] += change_z;
-        lanes.offset_x[i] = end_x + 0.5 * t * change_x;
-        lanes.offset_z[i] = end_z + 0.5 * t * change_z;
-
-        let met = which[i];
-        let x = if met == 1 {
-            s.half_width[i]
-        } else if met == 0 {
-            -s.half_width[i]
-        } else {
-            x
-        };
-        let floor = s.floor[i] + s.slope[i] * x;
-        let z = if met == 3 {
-            s.half_height[i]
-        } else if met == 2 {
-            -s.half_height[i]
-        } else if met == 4 {
-            floor
-        } else {
-            z
-        };
-        lanes.local_x[i] = x;
-        lanes.local_z[i] = z;
-
-        let turn = t * gx;
-        lanes.defect[i] -= turn * (2.0 * px + turn);
-        let px = px + turn;
-        lanes.slowness_x[i] = px;
-        // |p| = 1/c: p_z² = (1/c² − 1) + (1 − p_x²).
-        let slant = s.gradient_x[i] * x + s.gradient_z[i] * z + s.twist[i] * x * z;
-        let excess = s.excess[i] + 2.0 * slant;
-        let least = LEAST_SLOPE * px;
-        let vertical = (excess + lanes.defect[i]).max(least * least).sqrt();
-        let pz = pz + t * gz;
-        let downward = if met == 3 {
-            1.0
-        } else if met == 2 {
-            -1.0
-        } else {
-            pz
-        };
-        lanes.slowness_z[i] = vertical.copysign(downward);
-    }
-    const MEETINGS: [Meeting; 5] = [
-        Meeting::NodeBehind,
-        Meeting::NodeAhead,
-        Meeting::LevelAbove,
-        Meeting::LevelBelow,
-        Meeting::Floor,
-    ];
+    move_tubes(lanes, &s, &sigma);
+    move_rays(lanes, &s, &sigma);
     for i in 0..LANES {
         if lanes.met[i] != Meeting::Idle {
             lanes.met[i] = MEETINGS[which[i] as usize];
@@ -193,7 +187,8 @@ pub(super) fn advance(lanes: &mut Lanes, tables: &Tables, deposits: &mut Deposit
     }
 }
 
-/// Takes one ray through what it has met; true if the ray has ended.
+/// Takes one ray exactly onto what it has met and through it; true if the ray has
+/// ended.
 pub(super) fn meet(
     lanes: &mut Lanes,
     i: usize,
@@ -209,6 +204,8 @@ pub(super) fn meet(
         Meeting::NodeBehind => enter_column(lanes, i, tables, column - 1, 1.0),
         Meeting::NodeAhead => enter_column(lanes, i, tables, column + 1, -1.0),
         Meeting::LevelAbove if layer == bounds.first_layer => {
+            lanes.local_z[i] = -tables.layers[layer as usize].half_height;
+            lanes.slowness_z[i] = -lanes.slowness_z[i].abs();
             reflect(lanes, i, tables, [0.0, -1.0], boundaries[0]);
         }
         Meeting::LevelAbove => enter_layer(lanes, i, tables, layer - 1, 1.0),
@@ -216,7 +213,9 @@ pub(super) fn meet(
             enter_layer(lanes, i, tables, layer + 1, -1.0);
         }
         Meeting::LevelBelow | Meeting::Floor => {
-            let slope = tables.columns[column as usize].slope;
+            let Column { floor, slope, .. } = tables.columns[column as usize];
+            let middle = tables.layers[layer as usize].middle;
+            lanes.local_z[i] = floor - middle + slope * lanes.local_x[i];
             let secant = (1.0 + slope * slope).sqrt();
             reflect(lanes, i, tables, [-slope / secant, 1.0 / secant], boundaries[1]);
         }
@@ -241,6 +240,7 @@ fn enter_layer(lanes: &mut Lanes, i: usize, tables: &Tables, next: u32, side: f3
     let after = tables.cell(lanes.column[i], next);
     let x = lanes.local_x[i];
     let jump = after.gradient_z - before.gradient_z + (after.twist - before.twist) * x;
+    lanes.slowness_z[i] = lanes.slowness_z[i].abs().copysign(-side);
     lanes.offset_slowness_z[i] += jump * lanes.offset_z[i] / lanes.slowness_z[i];
     lanes.layer[i] = next;
     lanes.local_z[i] = side * tables.layers[next as usize].half_height;

@@ -3,8 +3,9 @@ use super::table::{LossTableSettings, TransmissionLossError, TransmissionLossTab
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
 
-/// Losses above this are left out of comparisons, dB: nothing is detected there.
-const COMPARED_LOSS_DB: f32 = 100.0;
+/// Losses above this are left out of comparisons, dB: what is fainter is neither
+/// detected nor understood.
+const COMPARED_LOSS_DB: f32 = 90.0;
 
 /// How far a table is from one of 720 bearings and dense beams, over a sample of
 /// its sources.
@@ -12,7 +13,7 @@ const COMPARED_LOSS_DB: f32 = 100.0;
 pub struct ErrorEstimate {
     /// Sources that were recomputed.
     pub sources: usize,
-    /// Losses that were compared: those under 100 dB.
+    /// Losses that were compared: those under 90 dB.
     pub compared: usize,
     /// Median absolute difference, dB.
     pub median_db: f64,

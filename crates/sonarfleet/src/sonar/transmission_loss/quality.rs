@@ -42,30 +42,40 @@ pub struct Numerics {
 }
 
 impl Quality {
-    /// The numbers behind a quality. Beams are densest where sound goes far; ±60°
-    /// is enough, what is steeper meets the floor too often.
+    /// The numbers behind a quality. Beams are densest where sound goes far; ±55°
+    /// is enough, because what is steeper soon fades in the floor. Work is best
+    /// spent on bearings and on soundings of the floor: halving either error costs
+    /// less than with more beams.
+    ///
+    /// Differences from `Fine` over the synthetic South China Sea slope (losses
+    /// under 90 dB, 1 kHz, 200 m; median, 90th and 99th percentile, dB):
+    ///
+    /// | quality | mud | sand |
+    /// |---|---|---|
+    /// | `Fast` | 0.28, 1.2, 2.9 | 0.43, 1.5, 3.1 |
+    /// | `Standard` | 0.21, 0.73, 1.6 | 0.30, 0.99, 2.0 |
     pub fn numerics(self) -> Numerics {
         match self {
             Self::Fast => Numerics {
-                bearings: 48,
-                beam_classes: classes([(12.0, 120, 0.1), (25.0, 80, 0.3), (60.0, 40, 2.0)]),
+                bearings: 40,
+                beam_classes: classes([(12.0, 80, 0.1), (25.0, 60, 0.5), (55.0, 30, 2.0)]),
                 amplitude_cutoff: 0.03,
                 sounding_m: 250.0,
-                range_step_m: 100.0,
+                range_step_m: 200.0,
             },
             Self::Standard => Numerics {
                 bearings: 96,
-                beam_classes: classes([(12.0, 160, 0.05), (25.0, 100, 0.3), (60.0, 60, 1.0)]),
-                amplitude_cutoff: 0.02,
+                beam_classes: classes([(12.0, 80, 0.1), (25.0, 60, 0.5), (55.0, 36, 2.0)]),
+                amplitude_cutoff: 0.03,
                 sounding_m: 250.0,
-                range_step_m: 100.0,
+                range_step_m: 200.0,
             },
             Self::Fine => Numerics {
                 bearings: 720,
-                beam_classes: classes([(12.0, 600, 0.01), (25.0, 360, 0.01), (60.0, 240, 0.01)]),
-                amplitude_cutoff: 0.005,
+                beam_classes: classes([(12.0, 300, 0.02), (25.0, 180, 0.05), (60.0, 120, 0.2)]),
+                amplitude_cutoff: 0.01,
                 sounding_m: 250.0,
-                range_step_m: 50.0,
+                range_step_m: 100.0,
             },
         }
     }

@@ -3,7 +3,9 @@ use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use crate::sonar::section::{BEHIND_M, Waters};
 use sonarfleet_acoustics::AcousticsError;
-use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, RangeProfiler, Source, TraceSettings};
+use sonarfleet_acoustics::field::{
+    FanPart, LaunchFan, RangeProfile, Source, TraceSettings, batch_intensity,
+};
 use std::f64::consts::TAU;
 
 /// A target cell is averaged over this many points a side.
@@ -83,29 +85,33 @@ impl<'a> RowComputer<'a> {
             .min(self.settings.maximum_range_m)
             .min(self.water_reach_m(centre, bearing_rad));
         let count = (reach_m / step_m).ceil() as usize;
-        let mut profile = RangeProfile { step_m, intensity: vec![0.0; count] };
         if count == 0 {
-            return Ok(profile);
+            return Ok(RangeProfile { step_m, intensity: Vec::new() });
         }
         let length_m = count as f64 * step_m;
         let depth_m = self.settings.fleet_depth_m;
         let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
-        for class in &self.classes {
-            let section =
-                class.waters.section(centre, bearing_rad, length_m, self.numerics.sounding_m)?;
-            let trace = TraceSettings {
-                near_m: -BEHIND_M,
-                amplitude_cutoff: self.numerics.amplitude_cutoff,
-                speed_tolerance_m_s: class.speed_tolerance_m_s,
-                ..TraceSettings::to_range(length_m)
-            };
-            let part = RangeProfiler::new(&section, &trace)
-                .intensity(&source, &class.fan, depth_m, step_m, count)?;
-            for (sum, intensity) in profile.intensity.iter_mut().zip(part.intensity) {
-                *sum += intensity;
-            }
-        }
-        Ok(profile)
+        let sounding_m = self.numerics.sounding_m;
+        let sections = self
+            .classes
+            .iter()
+            .map(|class| {
+                let section = class.waters.section(centre, bearing_rad, length_m, sounding_m)?;
+                let settings = TraceSettings {
+                    near_m: -BEHIND_M,
+                    amplitude_cutoff: self.numerics.amplitude_cutoff,
+                    speed_tolerance_m_s: class.speed_tolerance_m_s,
+                    ..TraceSettings::to_range(length_m)
+                };
+                Ok((section, settings))
+            })
+            .collect::<Result<Vec<_>, AcousticsError>>()?;
+        let parts: Vec<FanPart<'_>> = sections
+            .iter()
+            .zip(&self.classes)
+            .map(|((section, settings), class)| FanPart { section, fan: &class.fan, settings })
+            .collect();
+        batch_intensity(&parts, &source, depth_m, step_m, count)
     }
 
     /// Distance to the edge of the region along a bearing or along its
