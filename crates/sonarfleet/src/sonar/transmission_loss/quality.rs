@@ -52,8 +52,8 @@ impl Quality {
     ///
     /// | quality | mud | sand |
     /// |---|---|---|
-    /// | `Fast` | 0.28, 1.2, 2.9 | 0.43, 1.5, 3.1 |
-    /// | `Standard` | 0.21, 0.73, 1.6 | 0.30, 0.99, 2.0 |
+    /// | `Fast` | 0.25, 1.2, 3.7 | 0.54, 1.9, 4.3 |
+    /// | `Standard` | 0.18, 0.66, 1.7 | 0.36, 1.2, 2.4 |
     pub fn numerics(self) -> Numerics {
         match self {
             Self::Fast => Numerics {
