@@ -1,5 +1,5 @@
-//! Time and error of a table of transmission loss at every quality, over mud and
-//! over sand, in the synthetic South China Sea.
+//! Time and error of a table of transmission loss at every quality, over clay,
+//! mud and sand, in the synthetic South China Sea.
 //!
 //! `cargo run --release --example loss_table -- [fast|standard|fine]… [sampled sources]`
 
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let count = grid.cell_count();
     let sample: Vec<CellId> =
         (0..sampled).map(|k| CellId((k * count + count / 2) / sampled.max(1) % count)).collect();
-    for seabed in [Seabed::Mud, Seabed::Sand] {
+    for seabed in [Seabed::Clay, Seabed::Mud, Seabed::Sand] {
         let waters = Waters::new(
             &forecast.states[0],
             &bathymetry,

@@ -26,11 +26,16 @@ pub(crate) fn assign(args: &AssignArgs, manner: Manner) -> Result<()> {
     }
     for (row, column) in assignment.column_of_row.iter().enumerate() {
         match column {
-            Some(column) => println!("{row} → {column}  {}", costs.cost(row, *column)),
-            None => println!("{row} → none"),
+            Some(column) => {
+                super::say(format_args!("{row} → {column}  {}", costs.cost(row, *column)))?
+            }
+            None => super::say(format_args!("{row} → none"))?,
         }
     }
     let proof = if assignment.certified { "proved optimal" } else { "not proved optimal" };
-    println!("total {}, largest {}, {proof}", assignment.total, assignment.largest);
+    super::say(format_args!(
+        "total {}, largest {}, {proof}",
+        assignment.total, assignment.largest
+    ))?;
     Ok(())
 }

@@ -15,12 +15,12 @@ pub(crate) fn check(args: &CheckArgs, manner: Manner) -> Result<()> {
         super::print_json(&json!({ "usable": true, "findings": findings }))
     } else {
         if !manner.quiet {
-            println!("{}", describe(&scenario, &theatre));
+            super::say(format_args!("{}", describe(&scenario, &theatre)))?;
         }
         for finding in &findings {
-            println!("note: {finding}");
+            super::say(format_args!("note: {finding}"))?;
         }
-        println!("The scenario can be run.");
+        super::say(format_args!("The scenario can be run."))?;
         Ok(())
     }
 }

@@ -14,7 +14,7 @@ pub(crate) fn init(args: &InitArgs, manner: Manner) -> Result<()> {
     if manner.json {
         super::print_json(&serde_json::json!({ "scenario": args.path }))?;
     } else if !manner.quiet {
-        println!("Wrote {path}. Next: sonarfleet check {path}");
+        super::say(format_args!("Wrote {path}. Next: sonarfleet check {path}"))?;
     }
     Ok(())
 }

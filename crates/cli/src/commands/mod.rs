@@ -12,6 +12,8 @@ pub(crate) mod tl;
 use anyhow::{Result, ensure};
 use serde::Serialize;
 use sonarfleet::scenario::Scenario;
+use std::fmt::Display;
+use std::io::Write;
 use std::path::Path;
 
 /// How to speak to the user.
@@ -38,10 +40,14 @@ fn scenario(path: Option<&Path>) -> Result<Scenario> {
     })
 }
 
+/// Prints a line of results. Unlike `println!` it does not panic where nobody reads.
+fn say(line: impl Display) -> Result<()> {
+    Ok(writeln!(std::io::stdout().lock(), "{line}")?)
+}
+
 /// Prints one JSON object.
 fn print_json(object: &impl Serialize) -> Result<()> {
-    println!("{}", serde_json::to_string_pretty(object)?);
-    Ok(())
+    say(serde_json::to_string_pretty(object)?)
 }
 
 /// Refuses an epoch that the scenario does not have.

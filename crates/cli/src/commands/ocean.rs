@@ -37,7 +37,7 @@ fn show(files: &[PathBuf], manner: Manner) -> Result<()> {
         return super::print_json(&inspections);
     }
     for inspection in &inspections {
-        println!("{inspection}");
+        super::say(format_args!("{inspection}"))?;
     }
     Ok(())
 }
@@ -66,13 +66,13 @@ fn profile(
             .collect();
         return super::print_json(&json!({ "time": state.time.to_string(), "levels": objects }));
     }
-    println!("{}", COLUMNS.join(","));
+    super::say(format_args!("{}", COLUMNS.join(",")))?;
     for row in rows {
         let fields: Vec<String> = row
             .iter()
             .map(|value| value.map_or_else(String::new, |value| value.to_string()))
             .collect();
-        println!("{}", fields.join(","));
+        super::say(format_args!("{}", fields.join(",")))?;
     }
     Ok(())
 }
@@ -130,9 +130,9 @@ fn synthesise(directory: &Path, scenario: Option<&Path>, manner: Manner) -> Resu
         return super::print_json(&json!({ "files": written }));
     }
     if !manner.quiet {
-        println!("{TITLE}");
+        super::say(format_args!("{TITLE}"))?;
         for path in &written {
-            println!("  {}", path.display());
+            super::say(format_args!("  {}", path.display()))?;
         }
     }
     Ok(())
@@ -158,6 +158,6 @@ fn request(path: Option<&Path>, manner: Manner) -> Result<()> {
     if manner.json {
         return super::print_json(&json!({ "request": text }));
     }
-    println!("{text}");
+    super::say(format_args!("{text}"))?;
     Ok(())
 }

@@ -47,7 +47,7 @@ pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
         }));
     }
     let verdict = if evaluation.feasible { "feasible" } else { "INFEASIBLE" };
-    println!(
+    super::say(format_args!(
         "{}: J_d {:.3} (at most {:.3}), λ₂ {:.4} against {:.4}: {verdict}; {} proposals in {seconds:.2} s",
         placement.method,
         evaluation.detection_utility,
@@ -55,9 +55,9 @@ pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
         evaluation.algebraic_connectivity,
         problem.connectivity_threshold(),
         placement.evaluations,
-    );
+    ))?;
     let cells: Vec<String> = placement.cells.iter().map(|cell| cell.0.to_string()).collect();
-    println!("cells {}", cells.join(" "));
+    super::say(format_args!("cells {}", cells.join(" ")))?;
     Ok(())
 }
 

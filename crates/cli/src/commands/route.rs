@@ -167,11 +167,11 @@ fn routes(sea: &Sea, args: &RouteArgs, manner: Manner) -> Result<()> {
     }
     for (_, expected_h, route) in &sailed {
         let [from, to] = [route.points[0].position, route.goal].map(kilometres);
-        println!(
+        super::say(format_args!(
             "{from} → {to}: {} after {:.2} h (expected {expected_h:.2} h)",
             status(route),
             route.duration_h(),
-        );
+        ))?;
     }
     Ok(())
 }
@@ -245,7 +245,7 @@ fn matrix(
     if manner.json {
         return super::print_json(&matrix_json(sea, &travel, seconds));
     }
-    println!(
+    super::say(format_args!(
         "{} × {} travel times in {seconds:.2} s: {} reachable, mean {:.2} h, largest {:.2} h \
          (horizon {} h)",
         travel.starts(),
@@ -254,7 +254,7 @@ fn matrix(
         reachable.iter().sum::<f64>() / reachable.len() as f64,
         reachable.iter().copied().fold(f64::NAN, f64::max),
         sea.horizon_h,
-    );
+    ))?;
     Ok(())
 }
 

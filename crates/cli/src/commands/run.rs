@@ -126,7 +126,8 @@ impl Teller {
                 }
             }
             Event::Finished { .. } => *bar = None,
-            Event::Epoch(record) => println!("{}", summary(record, self.epochs)),
+            // A reader that has gone away must not stop the run.
+            Event::Epoch(record) => drop(super::say(summary(record, self.epochs))),
         }
     }
 }
@@ -170,7 +171,11 @@ fn conclude(record: &RunRecord, directory: &Path, seconds: f64, manner: Manner) 
         let epochs: Vec<_> = record.epochs.iter().map(epoch_json).collect();
         super::print_json(&json!({ "directory": directory, "epochs": epochs, "seconds": seconds }))
     } else {
-        println!("{:.0} s. Report: {}", seconds, directory.join("report.html").display());
+        super::say(format_args!(
+            "{:.0} s. Report: {}",
+            seconds,
+            directory.join("report.html").display()
+        ))?;
         Ok(())
     }
 }

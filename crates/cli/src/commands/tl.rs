@@ -88,7 +88,7 @@ fn tell(rows: &LossRows, output: &Path, seconds: Option<f64>, manner: Manner) ->
     }
     if !manner.quiet {
         let time = seconds.map_or_else(String::new, |seconds| format!(" in {seconds:.1} s"));
-        println!(
+        super::say(format_args!(
             "{}: {} × {} losses{time} ({}: {} beams, {} bearings), median {median_db:.1} dB",
             output.display(),
             rows.sources.len(),
@@ -96,7 +96,7 @@ fn tell(rows: &LossRows, output: &Path, seconds: Option<f64>, manner: Manner) ->
             about.quality,
             about.beams,
             about.bearings,
-        );
+        ))?;
     }
     Ok(())
 }

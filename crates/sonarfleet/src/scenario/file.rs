@@ -331,7 +331,7 @@ pub enum LinkSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SeabedSection {
-    /// A sediment of the library, e.g. "mud".
+    /// A sediment of the library, e.g. "clay".
     pub sediment: String,
     /// Measured parameters; they replace the sediment's.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -340,7 +340,7 @@ pub struct SeabedSection {
 
 impl Default for SeabedSection {
     fn default() -> Self {
-        Self { sediment: "mud".into(), half_space: None }
+        Self { sediment: "clay".into(), half_space: None }
     }
 }
 

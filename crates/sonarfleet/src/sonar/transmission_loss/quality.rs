@@ -57,16 +57,16 @@ impl Quality {
     pub fn numerics(self) -> Numerics {
         match self {
             Self::Fast => Numerics {
-                bearings: 40,
-                beam_classes: classes([(12.0, 80, 0.1), (25.0, 60, 0.5), (55.0, 30, 2.0)]),
-                amplitude_cutoff: 0.03,
+                bearings: 36,
+                beam_classes: classes([(12.0, 120, 0.1), (25.0, 80, 0.5), (55.0, 30, 2.0)]),
+                amplitude_cutoff: 0.01,
                 sounding_m: 250.0,
                 range_step_m: 200.0,
             },
             Self::Standard => Numerics {
-                bearings: 96,
-                beam_classes: classes([(12.0, 80, 0.1), (25.0, 60, 0.5), (55.0, 36, 2.0)]),
-                amplitude_cutoff: 0.03,
+                bearings: 72,
+                beam_classes: classes([(12.0, 160, 0.1), (25.0, 100, 0.5), (55.0, 40, 2.0)]),
+                amplitude_cutoff: 0.005,
                 sounding_m: 250.0,
                 range_step_m: 200.0,
             },
