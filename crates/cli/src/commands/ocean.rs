@@ -5,7 +5,7 @@ use crate::args::OceanCommand;
 use anyhow::{Context, Result};
 use jiff::Timestamp;
 use serde_json::json;
-use sonarfleet::scenario::{OceanSource, Scenario, ScenarioFile};
+use sonarfleet::scenario::{FleetSection, OceanSource, Scenario, ScenarioFile};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
 use sonarfleet_ocean::Column;
 use sonarfleet_ocean::io::{
@@ -148,6 +148,7 @@ fn request(path: Option<&Path>, manner: Manner) -> Result<()> {
         region: file.region,
         time: file.time,
         navigation: file.navigation,
+        fleet: FleetSection { vehicles: 1, ..file.fleet },
         ..ScenarioFile::default()
     };
     let origin = path.map_or("embedded scenario".into(), |path| path.display().to_string());

@@ -16,12 +16,12 @@ const CRATES: [(&str, &[&str]); 5] = [
 /// Which room of `sonarfleet` may use which.
 const ROOMS: [(&str, &[&str]); 8] = [
     ("grid", &[]),
-    ("npz", &["replace_file"]),
-    ("sonar", &["grid", "npz"]),
+    ("npz", &[]),
+    ("sonar", &["grid", "npz", "random"]),
     ("placement", &["grid", "npz", "random", "sonar"]),
-    ("navigation", &["grid", "npz", "record", "replace_file"]),
-    ("assignment", &["npz"]),
-    ("record", &["grid", "replace_file"]),
+    ("navigation", &["grid", "npz", "random", "record"]),
+    ("assignment", &["npz", "random"]),
+    ("record", &["grid"]),
     ("scenario", &["assignment", "grid", "navigation", "npz", "placement", "sonar"]),
 ];
 
@@ -84,10 +84,12 @@ fn rust_files(source: &Path, room: &str) -> Vec<PathBuf> {
 
 /// The rooms that a line names as `crate::room`.
 fn rooms_in(line: &str) -> impl Iterator<Item = String> + '_ {
-    line.match_indices("crate::").map(move |(at, found)| {
-        line[at + found.len()..]
-            .chars()
-            .take_while(|c| c.is_ascii_lowercase() || *c == '_')
-            .collect()
-    })
+    let name = |(at, found): (usize, &str)| -> String {
+        let rest = line[at + found.len()..].chars();
+        rest.take_while(|c| c.is_ascii_lowercase() || *c == '_').collect()
+    };
+    // What stands at the root itself is no room.
+    line.match_indices("crate::")
+        .map(name)
+        .filter(|room| !room.is_empty() && room != "replace_file")
 }

@@ -50,7 +50,7 @@ fn scenario_mistakes() {
         &["fleet.vehicles", "37", "1 to 36"],
     );
     let far = but("[[0.5, 1.0], [0.5, 5.0]]", "[[0.5, 1.0], [0.5, 99.0]]");
-    assert_refused(home, &far, &["fleet.entry_line_km", "99"]);
+    assert_refused(home, &far, &["fleet.entry_line_km", "inside the region"]);
     let unknown = but("evaluations = 5000", "method = \"magic\"");
     assert_refused(home, &unknown, &["placement.method", "magic", "annealing"]);
     let line = but("intercept = 13.0", "intercept = 99.0");

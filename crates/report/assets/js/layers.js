@@ -55,7 +55,7 @@ const layers = {
   },
   loss: {
     name: "Transmission loss from ◇", label: "Transmission loss (dB)",
-    scale: { table: "loss", range: roundRange(over(run.epochs, (e) => percentiles(e.loss_db, 0.02, 0.98) || []), 5, [40, 120]) },
+    scale: { table: "loss", range: roundRange(over(run.epochs, (e) => (percentiles(e.loss_db, 0.02, 0.98) || []).map((db) => Math.min(db, 120))), 5, [40, 120]) },
     of: (epoch) => onCells(epoch.loss_db),
   },
   current: {

@@ -103,6 +103,9 @@ struct Panel<'a> {
     layout: Option<&'a [CellId]>,
 }
 
+/// Losses above this are all drawn alike, dB: nothing is heard there.
+const HIGHEST_SHOWN_DB: f64 = 120.0;
+
 /// The range of losses without the outermost fiftieth at both ends, which would
 /// take most of the colours (the source's own cell, deep shadows), in tens.
 pub(super) fn loss_range(epoch: &EpochRecord) -> (f64, f64) {
@@ -113,5 +116,5 @@ pub(super) fn loss_range(epoch: &EpochRecord) -> (f64, f64) {
     let margin = last / 50;
     let low = (losses[margin] / 10.0).floor() * 10.0;
     let high = (losses[last - margin] / 10.0).ceil() * 10.0;
-    (low, high.max(low + 10.0))
+    (low, high.min(HIGHEST_SHOWN_DB).max(low + 10.0))
 }

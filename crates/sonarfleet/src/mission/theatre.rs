@@ -40,19 +40,6 @@ impl Theatre {
         for epoch in &scenario.epochs {
             forecast.at(scenario.instant(epoch.snapshot_h))?;
         }
-        let currents = CurrentField::from_forecast(
-            &forecast,
-            &scenario.frame,
-            scenario.fleet_depth_m,
-            scenario.domain,
-            scenario.start,
-        )?;
-        let currents = currents.closed_where(|position| {
-            let (longitude, latitude) =
-                scenario.frame.to_geographic(position.east_m, position.north_m);
-            let depth_m = bathymetry.depth_m(longitude, latitude);
-            depth_m.is_some_and(|depth_m| depth_m <= scenario.fleet_depth_m)
-        })?;
         let cell_degrees: Vec<(f64, f64)> = scenario
             .grid
             .cells()
@@ -85,6 +72,19 @@ impl Theatre {
             let cells = scenario.grid.cell_count();
             return Err(MissionError::NowhereToBe { cells, depth_m: scenario.fleet_depth_m });
         }
+        let currents = CurrentField::from_forecast(
+            &forecast,
+            &scenario.frame,
+            scenario.fleet_depth_m,
+            scenario.domain,
+            scenario.start,
+        )?;
+        let currents = currents.closed_where(|position| {
+            let (longitude, latitude) =
+                scenario.frame.to_geographic(position.east_m, position.north_m);
+            let depth_m = bathymetry.depth_m(longitude, latitude);
+            depth_m.is_some_and(|depth_m| depth_m <= scenario.fleet_depth_m)
+        })?;
         Ok(Self { forecast, bathymetry, currents, cell_degrees, cell_depth_m, deployable })
     }
 
