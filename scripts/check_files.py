@@ -63,7 +63,7 @@ for name in ("routes.kml", "routes.gpx"):
 
 sonarfleet("ocean", "synth", "ocean", "--scenario", scenario)
 files = [f"ocean/{name}" for name in ("thetao.nc", "so.nc", "uo_vo.nc")]
-ocean = xr.open_mfdataset([directory / name for name in files], engine="netcdf4", combine="by_coords")
+ocean = xr.merge([xr.open_dataset(directory / name) for name in files])
 check("the synthetic ocean has the CMEMS layout", set(ocean.sizes) == {"time", "depth", "latitude", "longitude"})
 longitude, latitude = float(ocean.longitude[3]), float(ocean.latitude[3])
 place = ("--longitude", longitude, "--latitude", latitude)

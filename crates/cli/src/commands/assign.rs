@@ -25,12 +25,11 @@ pub(crate) fn assign(args: &AssignArgs, manner: Manner) -> Result<()> {
         }));
     }
     for (row, column) in assignment.column_of_row.iter().enumerate() {
-        match column {
-            Some(column) => {
-                super::say(format_args!("{row} → {column}  {}", costs.cost(row, *column)))?
-            }
-            None => super::say(format_args!("{row} → none"))?,
-        }
+        let taken = match column {
+            Some(column) => format!("{row} → {column}  {}", costs.cost(row, *column)),
+            None => format!("{row} → none"),
+        };
+        super::say(taken)?;
     }
     let proof = if assignment.certified { "proved optimal" } else { "not proved optimal" };
     super::say(format_args!(

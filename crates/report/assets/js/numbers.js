@@ -47,6 +47,7 @@ function drawNumbers() {
     ["Upper bound on the detection utility", (m) => number(m.upper_bound, 3)],
     ["Gap to the bound", (m) => percent(gap(m), 2)],
     ["Detection utility of a random layout", (m) => number(m.random_detection_utility, 3)],
+    ["λ₂ of the random layout", (m) => number(m.random_algebraic_connectivity, 4)],
     ["Proposals evaluated", (m) => m.evaluations.toLocaleString("en")],
     ["group", "Vehicles"],
     ["Detection utility where they start", (m) => number(m.detection_utility_at_start, 3)],

@@ -30,14 +30,24 @@ pub(super) fn draw(record: &RunRecord, epoch: &EpochRecord) -> Canvas {
         kilometres(source.east_m),
         kilometres(source.north_m)
     );
-    let random_title =
-        format!("(c) Random layout: J_{{d}} = {}", number(metrics.random_detection_utility, 2));
-    let target_title = format!(
-        "(d) Target layout: J_{{d}} = {}, λ₂ = {} {} τ = {}",
-        number(metrics.detection_utility, 2),
-        number(metrics.algebraic_connectivity, 3),
-        if metrics.feasible { "≥" } else { "<" },
-        record.connectivity_threshold
+    let layout_title = |name: &str, utility: f64, connectivity: f64| {
+        let threshold = record.connectivity_threshold;
+        format!(
+            "{name}: J_{{d}} = {}, λ₂ = {} {} τ = {threshold}",
+            number(utility, 2),
+            number(connectivity, 3),
+            if connectivity >= threshold { "≥" } else { "<" },
+        )
+    };
+    let random_title = layout_title(
+        "(c) Random layout",
+        metrics.random_detection_utility,
+        metrics.random_algebraic_connectivity,
+    );
+    let target_title = layout_title(
+        "(d) Target layout",
+        metrics.detection_utility,
+        metrics.algebraic_connectivity,
     );
     let detected = Scale { table: DENSE, range: (0.0, 1.0) };
     let weighted = Scale { table: AMP, range: prior_range(std::slice::from_ref(epoch)) };

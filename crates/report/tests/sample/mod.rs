@@ -136,6 +136,7 @@ fn epoch(
         feasible: true,
         upper_bound: best * 1.038,
         random_detection_utility: utility(&random_detection_probability),
+        random_algebraic_connectivity: 0.021,
         detection_utility_at_start: utility(&detected(&at_start)),
         detection_utility_at_end: utility(&detected(&at_end)),
         algebraic_connectivity_at_end: 0.31 + 0.1 * index as f64,

@@ -17,7 +17,8 @@ fn evenly(first: f64, last: f64, most: f64) -> Vec<f64> {
     (0..=intervals).map(|k| first + (last - first) * k as f64 / intervals as f64).collect()
 }
 
-/// The sound-speed field over the region, NaN below the sea floor and on land.
+/// The sound-speed field over the region, NaN deeper than the first level below
+/// the sea floor and where the ocean model has no water.
 pub(super) fn sound_speed(
     state: &OceanState,
     bathymetry: &Bathymetry,
@@ -39,15 +40,18 @@ pub(super) fn sound_speed(
         }
     }
     let levels = &state.grid.depth_m;
-    let shown = levels.partition_point(|&depth| depth <= deepest_m);
+    // One level below the floor, so that fields can be drawn down to it.
+    let shown = (levels.partition_point(|&depth| depth <= deepest_m) + 1).min(levels.len());
     let depth_m = levels[..shown].to_vec();
     let speed = |level: usize, point: usize| match &columns[point] {
-        (floor_m, latitude, Some(column)) if depth_m[level] <= *floor_m => equation.speed_m_s(
-            column.temperature_c[level],
-            column.salinity_psu[level],
-            depth_m[level],
-            *latitude,
-        ) as f32,
+        (floor_m, latitude, Some(column)) if level == 0 || depth_m[level - 1] <= *floor_m => {
+            equation.speed_m_s(
+                column.temperature_c[level],
+                column.salinity_psu[level],
+                depth_m[level],
+                *latitude,
+            ) as f32
+        }
         _ => f32::NAN,
     };
     let speed_m_s = (0..shown * points).map(|k| speed(k / points, k % points)).collect();

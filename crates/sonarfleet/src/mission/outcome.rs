@@ -56,6 +56,7 @@ impl Mission<'_> {
             feasible: placement.evaluation.feasible,
             upper_bound: placement.upper_bound,
             random_detection_utility: random.evaluation.detection_utility,
+            random_algebraic_connectivity: random.evaluation.algebraic_connectivity,
             detection_utility_at_start: at_start.detection_utility,
             detection_utility_at_end: at_end.detection_utility,
             algebraic_connectivity_at_end: at_end.algebraic_connectivity,

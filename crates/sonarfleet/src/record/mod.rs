@@ -125,7 +125,8 @@ pub struct SoundSpeedRecord {
     pub east_m: Vec<f64>,
     /// Northward coordinates of the points, metres, ascending.
     pub north_m: Vec<f64>,
-    /// Sound speed, [depth, north, east], m/s; NaN below the bottom.
+    /// Sound speed, [depth, north, east], m/s; NaN deeper than the first level below the
+    /// bottom.
     pub speed_m_s: Vec<f32>,
 }
 
@@ -184,6 +185,8 @@ pub struct EpochMetrics {
     pub upper_bound: f64,
     /// `J_d` of a random layout.
     pub random_detection_utility: f64,
+    /// λ₂ of the random layout.
+    pub random_algebraic_connectivity: f64,
     /// `J_d` from the cells in which the vehicles are when the epoch starts.
     pub detection_utility_at_start: f64,
     /// `J_d` from the cells in which the vehicles are when the epoch ends.
