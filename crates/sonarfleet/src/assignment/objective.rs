@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 /// What an assignment makes small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AssignmentObjective {
-    /// The sum of the costs.
+    /// The sum of the costs, Eq. (1).
     Sum,
     /// The greatest cost, and among these assignments the sum.
     BottleneckThenSum,

@@ -175,7 +175,7 @@ pub struct TrackPoint {
 /// are reproducible to the bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EpochMetrics {
-    /// `J_d` of the target layout, Eq. (6).
+    /// `J_d` of the target layout.
     pub detection_utility: f64,
     /// λ₂ of the target layout.
     pub algebraic_connectivity: f64,

@@ -265,7 +265,7 @@ impl Default for SonarSection {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "model", rename_all = "kebab-case")]
 pub enum DetectionSection {
-    /// Eq. (4) of the paper: a shift of the mean in Gaussian noise.
+    /// The paper's: a shift of the mean in Gaussian noise.
     #[default]
     MeanShift,
     /// Detected if the signal-to-noise ratio is at least the threshold.
@@ -313,7 +313,7 @@ impl Default for CommunicationsSection {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "model", rename_all = "kebab-case")]
 pub enum LinkSection {
-    /// Coherent BPSK in white Gaussian noise, Eq. (8).
+    /// Coherent BPSK in white Gaussian noise.
     #[default]
     CoherentBpsk,
     /// Non-coherent FSK under Rayleigh fading.
@@ -525,7 +525,7 @@ impl Default for AssignmentSection {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ObjectiveName {
-    /// The sum of all travel times, Eq. (1).
+    /// The sum of all travel times.
     Sum,
     /// The longest travel time, then the sum.
     Bottleneck,
