@@ -2,6 +2,7 @@
 
 mod args;
 mod commands;
+mod log;
 mod progress;
 
 use args::{Cli, Command};
@@ -11,6 +12,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    log::start();
     match dispatch(&cli) {
         Ok(()) => ExitCode::SUCCESS,
         // Whoever read our output has seen enough.

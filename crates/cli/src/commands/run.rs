@@ -52,6 +52,8 @@ fn first_free() -> PathBuf {
 
 /// Runs all epochs that are not done yet and writes everything down.
 fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Result<RunRecord> {
+    crate::log::also_into(directory.path())?;
+    tracing::info!(version = env!("CARGO_PKG_VERSION"), scenario = scenario.file.name);
     let provenance =
         Provenance::new(scenario.resolved(), scenario.file.seed, scenario.input_files())?;
     let theatre = Theatre::of(scenario)?;
@@ -111,6 +113,11 @@ impl Teller {
     }
 
     fn tell(&self, event: Event<'_>) {
+        match event {
+            Event::Finished { stage, seconds } => tracing::info!(%stage, seconds),
+            Event::Epoch(record) => tracing::info!("{}", summary(record, self.epochs)),
+            _ => {}
+        }
         if !self.manner.talkative() {
             return;
         }

@@ -64,7 +64,7 @@ impl Quality {
                 range_step_m: 200.0,
             },
             Self::Standard => Numerics {
-                bearings: 72,
+                bearings: 64,
                 beam_classes: classes([(12.0, 160, 0.1), (25.0, 100, 0.5), (55.0, 40, 2.0)]),
                 amplitude_cutoff: 0.005,
                 sounding_m: 250.0,
