@@ -56,6 +56,7 @@ pub(crate) fn contact(closing: f64, push: f64, distance: f64) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
 
     #[test]
     fn a_coordinate_at_rest_never_leaves() {
@@ -65,6 +66,13 @@ mod tests {
     }
 
     proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 256,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
         #[test]
         fn the_exit_lies_on_a_face_and_none_is_passed_before(
             v in -1.0..1.0f64, a in -1.0..1.0f64, below in 0.01..1.0f64, above in 0.01..1.0f64,

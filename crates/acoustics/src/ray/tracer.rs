@@ -3,6 +3,11 @@ use super::medium::{Column, Medium};
 use super::segment::{Burden, Pair, Segment, SegmentSink};
 use crate::environment::Boundary;
 
+/// Rays leave a boundary at this grazing angle at least, radians: one that water
+/// refracts back to it would otherwise touch it without end. In a gradient of
+/// 0.1 s⁻¹ it makes skips of 3 m.
+const LEAST_GRAZING: f64 = 1e-4;
+
 /// Smallest vertical slowness after a crossing, as a fraction of the horizontal: a ray that turns
 /// exactly at a level must not stall on it.
 const LEAST_SLOPE: f64 = 1e-7;
@@ -262,13 +267,18 @@ impl Tracer<'_> {
     /// slowness differs by δp ← Refl(δp + Gδσ) − Gδσ.
     fn reflect(&self, ray: &mut State, normal: Pair, boundary: &Boundary) {
         let mirror = |v: Pair| v + normal * (-2.0 * v.dot(normal));
-        let across = ray.slowness.dot(normal);
+        let least = LEAST_GRAZING * ray.slowness.dot(ray.slowness).sqrt();
+        let across = ray.slowness.dot(normal).max(least);
         let along = ray.slowness.cross(normal);
         let gradient = self.medium.cell(ray.column, ray.layer).gradient_at(ray.local);
         let later = gradient * (-ray.offset.dot(normal) / across);
         ray.offset_slowness = mirror(ray.offset_slowness + later) + later * -1.0;
         ray.offset = mirror(ray.offset);
         ray.slowness = mirror(ray.slowness);
+        let away = -ray.slowness.dot(normal);
+        if away < least {
+            ray.slowness = ray.slowness + normal * (away - least);
+        }
 
         let coefficient = boundary.reflection(along, across);
         ray.burden.amplitude *= coefficient.modulus();

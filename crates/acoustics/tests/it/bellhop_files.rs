@@ -2,6 +2,7 @@
 
 use super::reference::folder;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::bellhop::BellhopCase;
 use std::path::PathBuf;
@@ -57,7 +58,12 @@ fn a_truncated_file_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+    #![proptest_config(ProptestConfig {
+        cases: 500,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
     #[test]
     fn mutated_files_never_panic(at in 0..248usize, byte in any::<u8>(), length in 0..20usize) {
         let name = format!("mutated-{at}-{byte}-{length}");

@@ -1,6 +1,7 @@
 //! Symmetries and conservation laws.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use sonarfleet_acoustics::environment::{
     Bathymetry, Boundary, ProfileLaw, Seabed, Section, SoundSpeedField,
 };
@@ -112,8 +113,24 @@ fn source_and_receiver_may_be_exchanged() {
     }
 }
 
+/// Upward refraction presses this ray against the surface.
+#[test]
+fn a_ray_along_the_surface_ends() {
+    let floor = vec![(-1000.0, 300.0), (2000.0, 300.0)];
+    let speeds = [1480.0, 1528.0, 1480.0];
+    let section = slope(floor, vec![(0.0, speeds), (2000.0, speeds)]);
+    let source = Source { depth_m: 0.0, frequency_hz: 1000.0 };
+    let ray = trace(&section, &source, 0.0, &TraceSettings::to_range(3000.0)).unwrap();
+    assert_eq!(ray.end, RayEnd::LeftDomain);
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
 
     /// A ray in a mirrored section, launched the other way, is mirrored.
     #[test]

@@ -2,6 +2,7 @@
 
 use jiff::SignedDuration;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use sonarfleet_ocean::synthetic::{REGION, START, SyntheticOcean};
 use sonarfleet_ocean::{Forecast, LocalFrame, OceanState, Region};
 use std::sync::LazyLock;
@@ -19,6 +20,13 @@ fn state_at(minutes: i64) -> OceanState {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 256,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
     /// Interpolation is an average: never outside the values it is made from, and never
     /// missing inside the data, however deep.
     #[test]

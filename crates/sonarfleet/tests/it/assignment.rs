@@ -1,6 +1,7 @@
 //! The assignment against brute force, and its certificate on larger problems.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use rand::Rng;
 use sonarfleet::assignment::{AssignmentError, AssignmentObjective, CostMatrix, assign};
 use sonarfleet::random::stream;
@@ -78,6 +79,13 @@ fn matrices() -> impl Strategy<Value = CostMatrix> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 256,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
     #[test]
     fn equals_brute_force(costs in matrices()) {
         for objective in OBJECTIVES {
