@@ -8,7 +8,6 @@ use std::path::PathBuf;
 #[command(
     name = "sonarfleet",
     version,
-    about,
     after_help = "Examples:\n  \
         sonarfleet run                              the embedded scenario, end to end\n  \
         sonarfleet init mission.toml                a commented scenario to start from\n  \
