@@ -43,17 +43,18 @@ pub struct Numerics {
 
 impl Quality {
     /// The numbers behind a quality. Beams are densest where sound goes far; ±55°
-    /// is enough, because what is steeper soon fades in the floor. Work is best
-    /// spent on bearings and on soundings of the floor: halving either error costs
-    /// less than with more beams.
+    /// is enough, because what is steeper soon fades in the floor. Over a floor that
+    /// returns little, beams near the horizontal matter most, because they make the
+    /// edge of the shadow; else soundings of the floor and bearings.
     ///
     /// Differences from `Fine` over the synthetic South China Sea slope (losses
-    /// under 90 dB, 1 kHz, 200 m; median, 90th and 99th percentile, dB):
+    /// under 90 dB, 1 kHz, 200 m; median, 90th and 99th percentile, dB; the example
+    /// `loss_table` measures them):
     ///
-    /// | quality | mud | sand |
-    /// |---|---|---|
-    /// | `Fast` | 0.25, 1.2, 3.7 | 0.54, 1.9, 4.3 |
-    /// | `Standard` | 0.18, 0.66, 1.7 | 0.36, 1.2, 2.4 |
+    /// | quality | clay | mud | sand |
+    /// |---|---|---|---|
+    /// | `Fast` | 0.18, 0.84, 3.26 | 0.26, 1.17, 2.98 | 0.42, 1.59, 3.20 |
+    /// | `Standard` | 0.15, 0.57, 1.83 | 0.17, 0.74, 1.94 | 0.28, 1.01, 2.47 |
     pub fn numerics(self) -> Numerics {
         match self {
             Self::Fast => Numerics {
