@@ -93,6 +93,13 @@ impl SurveillanceGrid {
     }
 }
 
+/// Evenly spaced coordinates from `first` to `last`, both included, at most `most`
+/// apart.
+pub(crate) fn evenly(first: f64, last: f64, most: f64) -> Vec<f64> {
+    let intervals = ((last - first) / most).ceil().max(1.0) as usize;
+    (0..=intervals).map(|k| first + (last - first) * k as f64 / intervals as f64).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

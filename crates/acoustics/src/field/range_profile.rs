@@ -93,12 +93,7 @@ impl<'a> RangeProfiler<'a> {
     ) -> Result<RangeProfile, AcousticsError> {
         source.check(self.section)?;
         within("the step of a range profile", "positive", step_m, step_m > 0.0)?;
-        let tracer = Tracer {
-            medium: &self.medium,
-            surface: &self.section.surface,
-            bottom: &self.section.bottom,
-            amplitude_cutoff: self.settings.amplitude_cutoff,
-        };
+        let tracer = Tracer::new(self.section, &self.medium, self.settings.amplitude_cutoff);
         let absorption_db_km = self.section.absorption.db_km(source.frequency_hz);
         let source_speed = self.section.sound_speed().speed_at_m_s(0.0, source.depth_m);
         let mut deposits = Deposits {

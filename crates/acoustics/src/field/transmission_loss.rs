@@ -43,12 +43,7 @@ pub fn transmission_loss(
 ) -> Result<Field, AcousticsError> {
     source.check(section)?;
     let medium = Medium::new(section, &MediumLimits::from(settings));
-    let tracer = Tracer {
-        medium: &medium,
-        surface: &section.surface,
-        bottom: &section.bottom,
-        amplitude_cutoff: settings.amplitude_cutoff,
-    };
+    let tracer = Tracer::new(section, &medium, settings.amplitude_cutoff);
     let absorption = section.absorption.db_km(source.frequency_hz) / (1000.0 * DB_PER_NEPER);
     let speed = section.sound_speed().speed_at_m_s(0.0, source.depth_m);
     let mut influence = Influence::new(

@@ -44,12 +44,7 @@ pub fn trace(
 ) -> Result<Ray, AcousticsError> {
     source.check(section)?;
     let medium = Medium::new(section, &MediumLimits::from(settings));
-    let tracer = Tracer {
-        medium: &medium,
-        surface: &section.surface,
-        bottom: &section.bottom,
-        amplitude_cutoff: settings.amplitude_cutoff,
-    };
+    let tracer = Tracer::new(section, &medium, settings.amplitude_cutoff);
     let mut path = Path::default();
     let launch = Launch { depth_m: source.depth_m, angle_rad: launch_angle_deg.to_radians() };
     let end = tracer.run(launch, &mut path);

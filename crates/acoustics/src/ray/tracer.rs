@@ -1,7 +1,7 @@
 use super::crossing::{contact, exit};
 use super::medium::{Column, Medium};
 use super::segment::{Burden, Pair, Segment, SegmentSink};
-use crate::environment::Boundary;
+use crate::environment::{Boundary, Section};
 
 /// Rays leave a boundary at this grazing angle at least, radians: one that water
 /// refracts back to it would otherwise touch it without end. In a gradient of
@@ -41,11 +41,18 @@ pub(crate) struct Launch {
 /// Carries rays through a medium between two boundaries.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tracer<'a> {
-    pub medium: &'a Medium,
-    pub surface: &'a Boundary,
-    pub bottom: &'a Boundary,
+    medium: &'a Medium,
+    surface: &'a Boundary,
+    bottom: &'a Boundary,
     /// Product of reflection coefficients under which a ray ends.
-    pub amplitude_cutoff: f64,
+    amplitude_cutoff: f64,
+}
+
+impl<'a> Tracer<'a> {
+    /// A tracer between the boundaries of a section, through the medium made of it.
+    pub(crate) fn new(section: &'a Section, medium: &'a Medium, amplitude_cutoff: f64) -> Self {
+        Self { medium, surface: &section.surface, bottom: &section.bottom, amplitude_cutoff }
+    }
 }
 
 /// What a ray meets at the end of a segment.

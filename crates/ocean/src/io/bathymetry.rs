@@ -3,7 +3,7 @@
 use super::NetcdfFile;
 use super::coordinates::{AxisRole, axis};
 use super::layout::{find_bathymetry, is_depth, searched_bathymetry_names};
-use super::selection::{Selected, select_region};
+use super::selection::{Selected, refuse_unknown_dimensions, select_region};
 use super::source::{DataSource, read_decoded};
 use crate::{Bathymetry, OceanError, Region};
 use std::path::Path;
@@ -34,16 +34,7 @@ pub fn bathymetry_from(
     let latitude = axis(source, variable, AxisRole::Latitude)?;
     let longitude = axis(source, variable, AxisRole::Longitude)?;
     let known = [latitude.dimension, longitude.dimension];
-    for (position, dimension) in variable.dimensions.iter().enumerate() {
-        if dimension.length != 1 && !known.contains(&Some(position)) {
-            return Err(OceanError::UnknownDimension {
-                path: source.path().to_owned(),
-                variable: variable.name.clone(),
-                dimension: dimension.name.clone(),
-                length: dimension.length,
-            });
-        }
-    }
+    refuse_unknown_dimensions(source, variable, &known)?;
     let (rows, columns) = select_region(source, latitude, longitude, region)?;
     let mut selection = vec![0..1; variable.dimensions.len()];
     for selected in [&rows, &columns] {

@@ -2,7 +2,7 @@
 
 use super::coordinates::{AxisRole, axis, find_coordinate};
 use super::layout::{find_quantity, is_potential, searched_names, to_our_units};
-use super::selection::{Selected, select_region};
+use super::selection::{Selected, refuse_unknown_dimensions, select_region};
 use super::source::{DataSource, VariableInfo, read_decoded};
 use super::{NetcdfFile, time};
 use crate::axis::TOLERANCE;
@@ -157,16 +157,7 @@ impl<'a> Part<'a> {
         let latitude = axis(source, variable, AxisRole::Latitude)?;
         let longitude = axis(source, variable, AxisRole::Longitude)?;
         let known = [time_dimension, depth.dimension, latitude.dimension, longitude.dimension];
-        for (position, dimension) in variable.dimensions.iter().enumerate() {
-            if dimension.length != 1 && !known.contains(&Some(position)) {
-                return Err(OceanError::UnknownDimension {
-                    path: source.path().to_owned(),
-                    variable: variable.name.clone(),
-                    dimension: dimension.name.clone(),
-                    length: dimension.length,
-                });
-            }
-        }
+        refuse_unknown_dimensions(source, variable, &known)?;
         let (latitude, longitude) = select_region(source, latitude, longitude, region)?;
         let depth = Selected::all(depth);
         Ok(Self { source, variable, time_dimension, depth, latitude, longitude })

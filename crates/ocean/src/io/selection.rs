@@ -1,7 +1,7 @@
 //! Which nodes of a file are read.
 
 use super::coordinates::Axis;
-use super::source::DataSource;
+use super::source::{DataSource, VariableInfo};
 use crate::axis::TOLERANCE;
 use crate::{OceanError, OceanGrid, Region};
 use std::ops::Range;
@@ -89,6 +89,26 @@ fn around(nodes: &[f64], from: f64, to: f64) -> Range<usize> {
     let first = nodes.partition_point(|&node| node <= from);
     let last = nodes.partition_point(|&node| node < to);
     first.saturating_sub(1 + NODES_AROUND)..(last + 1 + NODES_AROUND).min(nodes.len())
+}
+
+/// Refuses a variable with a dimension, of more than one index, at none of the known
+/// positions.
+pub(crate) fn refuse_unknown_dimensions(
+    source: &dyn DataSource,
+    variable: &VariableInfo,
+    known: &[Option<usize>],
+) -> Result<(), OceanError> {
+    for (position, dimension) in variable.dimensions.iter().enumerate() {
+        if dimension.length != 1 && !known.contains(&Some(position)) {
+            return Err(OceanError::UnknownDimension {
+                path: source.path().to_owned(),
+                variable: variable.name.clone(),
+                dimension: dimension.name.clone(),
+                length: dimension.length,
+            });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

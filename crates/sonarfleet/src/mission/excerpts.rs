@@ -1,6 +1,6 @@
 //! The parts of an epoch's environment that figures show.
 
-use crate::grid::{Position, SurveillanceGrid};
+use crate::grid::{Position, SurveillanceGrid, evenly};
 use crate::navigation::{CurrentField, TransitDomain};
 use crate::record::{CurrentRecord, SoundSpeedRecord};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
@@ -10,12 +10,6 @@ use sonarfleet_ocean::{Bathymetry, LocalFrame, OceanState};
 const SOUND_SPEED_SPACING_M: f64 = 1500.0;
 /// Most distance between points of the current excerpt, metres.
 const CURRENT_SPACING_M: f64 = 2000.0;
-
-/// Evenly spaced points from `first` to `last`, both included.
-fn evenly(first: f64, last: f64, most: f64) -> Vec<f64> {
-    let intervals = ((last - first) / most).ceil().max(1.0) as usize;
-    (0..=intervals).map(|k| first + (last - first) * k as f64 / intervals as f64).collect()
-}
 
 /// The sound-speed field over the region, NaN deeper than the first level below
 /// the sea floor and where the ocean model has no water.

@@ -1,7 +1,7 @@
 //! The current field of an ocean forecast.
 
 use super::{CurrentField, NavigationError, TransitDomain};
-use crate::grid::Position;
+use crate::grid::{Position, evenly};
 use jiff::Timestamp;
 use rayon::prelude::*;
 use sonarfleet_ocean::{Forecast, LocalFrame};
@@ -28,9 +28,9 @@ impl CurrentField {
         domain: TransitDomain,
         run_start: Timestamp,
     ) -> Result<Self, NavigationError> {
-        let south_west = domain.south_west();
-        let east_m = nodes(south_west.east_m, domain.width_m());
-        let north_m = nodes(south_west.north_m, domain.height_m());
+        let (south_west, north_east) = (domain.south_west(), domain.north_east());
+        let east_m = evenly(south_west.east_m, north_east.east_m, GREATEST_SPACING_M);
+        let north_m = evenly(south_west.north_m, north_east.north_m, GREATEST_SPACING_M);
         let time_h = forecast
             .states
             .iter()
@@ -56,10 +56,4 @@ impl CurrentField {
         };
         Self::new(east_m, north_m, time_h, &component(0), &component(1))
     }
-}
-
-/// Equally spaced coordinates from `start_m` over `extent_m`, both ends included.
-fn nodes(start_m: f64, extent_m: f64) -> Vec<f64> {
-    let cells = (extent_m / GREATEST_SPACING_M).ceil().max(1.0);
-    (0..=cells as usize).map(|node| start_m + extent_m * node as f64 / cells).collect()
 }
