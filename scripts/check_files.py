@@ -5,7 +5,7 @@
 Runs the small scenario with the given executable into DIRECTORY/run, writes its
 synthetic ocean, and compares what xarray, NumPy, SciPy and an XML and a JSON
 parser read with what the program itself says. Needs numpy, scipy, xarray,
-netCDF4 and h5netcdf.
+netCDF4, h5netcdf and h5py.
 """
 
 import csv
