@@ -55,6 +55,14 @@ pub enum AcousticsError {
         /// Depth of the sea floor at the source, metres.
         floor_m: f64,
     },
+    /// A model cannot compute what a case asks for.
+    #[error("the {model} model does not compute {what}")]
+    NotOffered {
+        /// The model.
+        model: &'static str,
+        /// What is asked for.
+        what: &'static str,
+    },
     /// A file cannot be opened or read.
     #[error("{}: {reason}", path.display())]
     Unreadable {

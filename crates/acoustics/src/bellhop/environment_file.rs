@@ -1,18 +1,29 @@
-use super::case::{BellhopCase, Run};
 use super::lines::Lines;
 use super::tables::{read_bathymetry, read_reflection, read_sound_speed};
 use crate::environment::{
-    Bathymetry, Boundary, FluidHalfSpace, ProfileLaw, Section, SoundSpeedField,
+    Boundary, FluidHalfSpace, Interface, ProfileLaw, Section, SoundSpeedField,
 };
 use crate::error::AcousticsError;
-use crate::field::{BeamShape, Coherence, LaunchFan, Receivers, TraceSettings};
+use crate::field::{
+    BeamCoordinates, BeamKind, BeamShape, Coherence, LaunchFan, Receivers, SourceGeometry,
+    TraceSettings,
+};
+use crate::model::{Case, Run};
 use crate::seawater::Absorption;
 use std::path::Path;
 
 const KM: f64 = 1000.0;
 
-/// Reads a `.env` file and the files beside it that it refers to.
-pub(super) fn read(path: &Path) -> Result<BellhopCase, AcousticsError> {
+/// Reads `CASE.env`, and `CASE.ssp`, `.bty`, `.brc` and `.trc` where it refers to
+/// them. Understood are one medium; profiles C, N and Q; flat surfaces and
+/// straight-piecewise sea floors; boundaries V, R, A (fluid) and F; volume
+/// attenuation T and F; run types C, S, I and R with Cartesian hat and Gaussian
+/// beams.
+///
+/// # Errors
+/// If a file cannot be read, a line does not hold what belongs there or asks for
+/// something else, or the environment makes no sense.
+pub fn read_case(path: &Path) -> Result<Case, AcousticsError> {
     let mut lines = Lines::open(path)?;
     let (title, _) = lines.text("a title in quotes")?;
     let frequency_hz = lines.number("a frequency in Hz")?;
@@ -47,7 +58,7 @@ pub(super) fn read(path: &Path) -> Result<BellhopCase, AcousticsError> {
     let bottom_option = |index: usize| bottom_options.chars().nth(index).unwrap_or(' ');
     let bathymetry = match bottom_option(1) {
         '~' | '*' => read_bathymetry(&path.with_extension("bty"))?,
-        _ => Bathymetry::flat(mesh[2])?,
+        _ => Interface::flat(mesh[2])?,
     };
     let bottom = read_boundary(&mut lines, bottom_option(0), unit, &path.with_extension("brc"))?;
     let mut section = Section::new(sound_speed, bathymetry, bottom)?;
@@ -61,23 +72,26 @@ pub(super) fn read(path: &Path) -> Result<BellhopCase, AcousticsError> {
         *range *= KM;
     }
     let (run_options, _) = lines.text("the run type in quotes")?;
-    let run = run_type(&lines, &run_options)?;
-    let beams = lines.count("the number of beams")?;
+    let (run, beams) = run_type(&lines, &run_options)?;
+    let beam_count = lines.count("the number of beams")?;
     let mut angles = [f64::NAN; 2];
     lines.record("the launch angles of the first and last beam", &mut angles)?;
-    let fan = LaunchFan::uniform(angles[0], angles[1], beams)?;
+    let fan = LaunchFan::uniform(angles[0], angles[1], beam_count)?;
     let mut limits = [f64::NAN; 3];
     lines.record("a step in m, a depth in m and a range in km", &mut limits)?;
     if limits.iter().any(|limit| limit.is_nan()) || limits[2] <= 0.0 {
         return Err(lines.syntax("a step in m, a depth in m and a range in km"));
     }
-    Ok(BellhopCase {
+    Ok(Case {
         title,
         frequency_hz,
         section,
         source_depth_m,
+        geometry: SourceGeometry::Point,
+        beam_pattern: None,
         receivers: Receivers::new(range_m, receiver_depth_m)?,
         fan,
+        beams,
         run,
         settings: TraceSettings::to_range(limits[2] * KM),
     })
@@ -178,7 +192,7 @@ fn read_profile(
     }
 }
 
-fn run_type(lines: &Lines, options: &str) -> Result<Run, AcousticsError> {
+fn run_type(lines: &Lines, options: &str) -> Result<(Run, BeamKind), AcousticsError> {
     let option = |index: usize| options.chars().nth(index).unwrap_or(' ');
     let shape = match option(1) {
         'G' | '^' | ' ' => BeamShape::Hat,
@@ -191,11 +205,12 @@ fn run_type(lines: &Lines, options: &str) -> Result<Run, AcousticsError> {
     if !matches!(option(4), ' ' | 'R') {
         return Err(lines.unsupported("receiver grid", &option(4)));
     }
-    match option(0) {
-        'C' => Ok(Run::Field(shape, Coherence::Coherent)),
-        'S' => Ok(Run::Field(shape, Coherence::SemiCoherent)),
-        'I' => Ok(Run::Field(shape, Coherence::Incoherent)),
-        'R' => Ok(Run::Rays),
-        other => Err(lines.unsupported("run type", &other)),
-    }
+    let run = match option(0) {
+        'C' => Run::Field(Coherence::Coherent),
+        'S' => Run::Field(Coherence::SemiCoherent),
+        'I' => Run::Field(Coherence::Incoherent),
+        'R' => Run::Rays,
+        other => return Err(lines.unsupported("run type", &other)),
+    };
+    Ok((run, BeamKind { shape, coordinates: BeamCoordinates::Cartesian }))
 }

@@ -1,8 +1,7 @@
 //! Files of the BELLHOP family of beam tracers.
 
-mod case;
 mod environment_file;
 mod lines;
 mod tables;
 
-pub use case::{BellhopCase, Run};
+pub use environment_file::read_case;

@@ -1,12 +1,12 @@
 use super::lines::Lines;
-use crate::environment::{Bathymetry, ProfileLaw, ReflectionTable, SoundSpeedField};
+use crate::environment::{Interface, ProfileLaw, ReflectionTable, SoundSpeedField};
 use crate::error::AcousticsError;
 use std::path::Path;
 
 const KM: f64 = 1000.0;
 
 /// Reads a `.bty` file: the sea floor, straight between its nodes.
-pub(crate) fn read_bathymetry(path: &Path) -> Result<Bathymetry, AcousticsError> {
+pub(crate) fn read_bathymetry(path: &Path) -> Result<Interface, AcousticsError> {
     let mut lines = Lines::open(path)?;
     let (kind, _) = lines.text("the type of the sea floor in quotes")?;
     if !kind.starts_with('L') {
@@ -24,7 +24,7 @@ pub(crate) fn read_bathymetry(path: &Path) -> Result<Bathymetry, AcousticsError>
         range_m.push(node[0] * KM);
         depth_m.push(node[1]);
     }
-    Bathymetry::new(range_m, depth_m)
+    Interface::new(range_m, depth_m)
 }
 
 /// Reads a `.ssp` file: sound speeds over range at the levels of the `.env` file.

@@ -1,4 +1,4 @@
-use super::{Bathymetry, Boundary, SoundSpeedField};
+use super::{Boundary, Interface, SoundSpeedField};
 use crate::error::AcousticsError;
 use crate::seawater::Absorption;
 
@@ -7,8 +7,10 @@ use crate::seawater::Absorption;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     sound_speed: SoundSpeedField,
-    bathymetry: Bathymetry,
-    /// What reflects at the surface, which lies at the first sound-speed level.
+    bathymetry: Interface,
+    /// The sea surface; level at the first sound-speed level without it.
+    pub altimetry: Option<Interface>,
+    /// What reflects at the surface.
     pub surface: Boundary,
     /// What reflects at the sea floor.
     pub bottom: Boundary,
@@ -23,7 +25,7 @@ impl Section {
     /// If the sea floor lies deeper than the last sound-speed level anywhere.
     pub fn new(
         sound_speed: SoundSpeedField,
-        bathymetry: Bathymetry,
+        bathymetry: Interface,
         bottom: Boundary,
     ) -> Result<Self, AcousticsError> {
         let deepest_level_m = sound_speed.depth_m()[sound_speed.depth_m().len() - 1];
@@ -32,7 +34,7 @@ impl Section {
             return Err(AcousticsError::LevelsTooShallow { deepest_level_m, deepest_floor_m });
         }
         let (surface, absorption) = (Boundary::Vacuum, Absorption::Thorp);
-        Ok(Self { sound_speed, bathymetry, surface, bottom, absorption })
+        Ok(Self { sound_speed, bathymetry, altimetry: None, surface, bottom, absorption })
     }
 
     /// The speed of sound in the water.
@@ -41,7 +43,7 @@ impl Section {
     }
 
     /// The sea floor.
-    pub const fn bathymetry(&self) -> &Bathymetry {
+    pub const fn bathymetry(&self) -> &Interface {
         &self.bathymetry
     }
 }

@@ -13,6 +13,24 @@ pub enum BeamShape {
     Gaussian,
 }
 
+/// Along what lines a beam is spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BeamCoordinates {
+    /// Down the column of receivers at a range.
+    Cartesian,
+    /// Across the ray.
+    RayCentred,
+}
+
+/// What a beam looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BeamKind {
+    /// Across itself.
+    pub shape: BeamShape,
+    /// How it meets receivers.
+    pub coordinates: BeamCoordinates,
+}
+
 /// What is added up at a receiver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coherence {

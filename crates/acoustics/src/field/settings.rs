@@ -29,6 +29,16 @@ impl Source {
     }
 }
 
+/// How sound spreads out of the section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SourceGeometry {
+    /// From a point, over cylinders around it.
+    #[default]
+    Point,
+    /// From a line across the section: not at all.
+    Line,
+}
+
 /// A grid of receivers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Receivers {

@@ -1,7 +1,7 @@
 //! The batch kernel against the scalar reference path.
 
 use sonarfleet_acoustics::environment::{
-    Bathymetry, Boundary, ProfileLaw, Seabed, Section, SoundSpeedField,
+    Boundary, Interface, ProfileLaw, Seabed, Section, SoundSpeedField,
 };
 use sonarfleet_acoustics::field::{
     FanPart, LaunchFan, RangeProfile, RangeProfiler, Source, TraceSettings, batch_intensity,
@@ -26,7 +26,7 @@ fn hills(seabed: Seabed) -> Section {
     let nodes: Vec<f64> = (-12..=60).map(|k| f64::from(k) * 333.0).collect();
     let floor = nodes.iter().map(|x| 900.0 + x / 50.0 + 60.0 * (TAU * x / 5000.0).sin()).collect();
     let bottom = Boundary::Fluid(seabed.half_space());
-    Section::new(field, Bathymetry::new(nodes, floor).unwrap(), bottom).unwrap()
+    Section::new(field, Interface::new(nodes, floor).unwrap(), bottom).unwrap()
 }
 
 fn settings() -> TraceSettings {

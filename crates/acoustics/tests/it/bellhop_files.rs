@@ -4,18 +4,16 @@ use super::reference::folder;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sonarfleet_acoustics::AcousticsError;
-use sonarfleet_acoustics::bellhop::BellhopCase;
+use sonarfleet_acoustics::bellhop::read_case;
+use sonarfleet_acoustics::model::Case;
 use std::path::PathBuf;
 
 /// Reads the case `pekeris_i` after a change to its text.
-fn read_changed(
-    name: &str,
-    change: impl Fn(&str) -> String,
-) -> Result<BellhopCase, AcousticsError> {
+fn read_changed(name: &str, change: impl Fn(&str) -> String) -> Result<Case, AcousticsError> {
     let text = std::fs::read_to_string(folder("pekeris_i").join("case.env")).unwrap();
     let path = scratch(name);
     std::fs::write(&path, change(&text)).unwrap();
-    let result = BellhopCase::read(&path);
+    let result = read_case(&path);
     std::fs::remove_file(&path).unwrap();
     result
 }
@@ -28,7 +26,7 @@ fn scratch(name: &str) -> PathBuf {
 #[test]
 fn a_missing_file_is_named() {
     let path = PathBuf::from("/nowhere/case.env");
-    let refused = BellhopCase::read(&path).unwrap_err();
+    let refused = read_case(&path).unwrap_err();
     assert!(matches!(&refused, AcousticsError::Unreadable { path: found, .. } if *found == path));
 }
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sonarfleet_acoustics::environment::{
-    Bathymetry, Boundary, ProfileLaw, Seabed, Section, SoundSpeedField,
+    Boundary, Interface, ProfileLaw, Seabed, Section, SoundSpeedField,
 };
 use sonarfleet_acoustics::field::{
     BeamShape, Coherence, LaunchFan, RangeProfiler, Receivers, Source, TraceSettings,
@@ -23,7 +23,7 @@ fn slope(floor: Vec<(f64, f64)>, columns: Vec<(f64, [f64; 3])>) -> Section {
     )
     .unwrap();
     let bottom = Boundary::Fluid(Seabed::Sand.half_space());
-    Section::new(field, Bathymetry::new(range, depth).unwrap(), bottom).unwrap()
+    Section::new(field, Interface::new(range, depth).unwrap(), bottom).unwrap()
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn a_level_inserted_in_a_profile_changes_nothing() {
         let law = ProfileLaw::LinearSquaredIndex;
         let field = SoundSpeedField::new(vec![0.0], depth, speed, law).unwrap();
         let bottom = Boundary::Fluid(Seabed::Silt.half_space());
-        Section::new(field, Bathymetry::flat(1000.0).unwrap(), bottom).unwrap()
+        Section::new(field, Interface::flat(1000.0).unwrap(), bottom).unwrap()
     };
     let sections = [
         field(coarse, speeds.to_vec()),
@@ -61,7 +61,7 @@ fn an_ideal_guide_conserves_energy() {
     let depth = 200.0;
     let profile = SoundSpeedField::profile(vec![0.0, depth], vec![1500.0, 1500.0]).unwrap();
     let mut section =
-        Section::new(profile, Bathymetry::flat(depth).unwrap(), Boundary::Rigid).unwrap();
+        Section::new(profile, Interface::flat(depth).unwrap(), Boundary::Rigid).unwrap();
     section.absorption = Absorption::None;
     let source = Source { depth_m: 80.0, frequency_hz: 2000.0 };
     let limit = 40.0f64;

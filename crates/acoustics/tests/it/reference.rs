@@ -1,15 +1,16 @@
 //! The native engine against real BELLHOP programs and closed forms
 //! (`tests/data/README.md`).
 
-use sonarfleet_acoustics::bellhop::{BellhopCase, Run};
+use sonarfleet_acoustics::bellhop::read_case;
+use sonarfleet_acoustics::model::{Case, Native, Output, PropagationModel};
 use std::path::PathBuf;
 
 pub(crate) fn folder(case: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(case)
 }
 
-pub(crate) fn read(case: &str) -> BellhopCase {
-    BellhopCase::read(&folder(case).join("case.env")).unwrap()
+pub(crate) fn read(case: &str) -> Case {
+    read_case(&folder(case).join("case.env")).unwrap()
 }
 
 /// A column of a case's table by name.
@@ -45,9 +46,10 @@ impl Differences {
 }
 
 fn loss_db(case: &str) -> Vec<f64> {
-    let case = read(case);
-    let Run::Field(shape, coherence) = case.run else { panic!("a field was expected") };
-    case.fields(shape, coherence).unwrap()[0].loss_db()
+    let Output::Fields(fields) = Native.solve(&read(case)).unwrap() else {
+        panic!("a field was expected")
+    };
+    fields[0].loss_db()
 }
 
 /// What two correct programs may differ by in incoherent fields under 90 dB.

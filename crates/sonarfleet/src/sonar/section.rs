@@ -4,7 +4,7 @@
 use crate::grid::Position;
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::environment::{
-    Bathymetry as SeaFloor, Boundary, ProfileLaw, Section, SoundSpeedField,
+    Boundary, Interface, ProfileLaw, Section, SoundSpeedField,
 };
 use sonarfleet_acoustics::seawater::{Absorption, SoundSpeedEquation};
 use sonarfleet_ocean::{Bathymetry, LocalFrame, OceanState, Region};
@@ -220,7 +220,7 @@ impl Waters {
 
         let range_m = nodes(sounding_m);
         let depth_m = range_m.iter().map(|&range| self.floor_m(at(range))).collect();
-        let floor = SeaFloor::new(range_m, depth_m)?;
+        let floor = Interface::new(range_m, depth_m)?;
         let mut section = Section::new(sound_speed, floor, self.bottom.clone())?;
         section.absorption = Absorption::Thorp;
         Ok(section)

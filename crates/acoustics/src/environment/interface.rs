@@ -1,41 +1,65 @@
 use crate::error::{AcousticsError, ascending, length, within};
 
-/// The sea floor along a section: straight between its nodes, level beyond the
-/// first and the last.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bathymetry {
-    range_m: Vec<f64>,
-    depth_m: Vec<f64>,
+/// How an interface runs between its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InterfaceShape {
+    /// Straight.
+    #[default]
+    Straight,
+    /// Straight for where rays meet it, but smooth for how they are reflected: its
+    /// normal turns steadily from node to node, and its curvature focuses sound.
+    Curvilinear,
 }
 
-impl Bathymetry {
-    /// A sea floor through nodes at ascending ranges; depths in metres, positive
-    /// down.
+/// The line along which the water of a section ends: the sea floor (bathymetry) or
+/// the sea surface (altimetry). It is given by nodes, and level beyond the first
+/// and the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interface {
+    range_m: Vec<f64>,
+    depth_m: Vec<f64>,
+    shape: InterfaceShape,
+}
+
+impl Interface {
+    /// An interface through nodes at ascending ranges, straight between them; depths in
+    /// metres, positive down.
     ///
     /// # Errors
     /// If there is no node, the two differ in length, ranges do not ascend, or a
     /// depth is not finite.
     pub fn new(range_m: Vec<f64>, depth_m: Vec<f64>) -> Result<Self, AcousticsError> {
         within(
-            "the number of bathymetry nodes",
+            "the number of nodes of an interface",
             "at least 1",
             range_m.len() as f64,
             !range_m.is_empty(),
         )?;
-        length("bathymetry depths", range_m.len(), depth_m.len())?;
-        ascending("bathymetry ranges", &range_m)?;
+        length("depths of an interface", range_m.len(), depth_m.len())?;
+        ascending("ranges of an interface", &range_m)?;
         for &depth in &depth_m {
-            within("a depth of the sea floor", "finite", depth, true)?;
+            within("a depth of an interface", "finite", depth, true)?;
         }
-        Ok(Self { range_m, depth_m })
+        Ok(Self { range_m, depth_m, shape: InterfaceShape::Straight })
     }
 
-    /// A level sea floor.
+    /// A level interface.
     ///
     /// # Errors
     /// If the depth is not finite.
     pub fn flat(depth_m: f64) -> Result<Self, AcousticsError> {
         Self::new(vec![0.0], vec![depth_m])
+    }
+
+    /// The same nodes, with another shape between them.
+    #[must_use]
+    pub fn with_shape(self, shape: InterfaceShape) -> Self {
+        Self { shape, ..self }
+    }
+
+    /// How it runs between its nodes.
+    pub const fn shape(&self) -> InterfaceShape {
+        self.shape
     }
 
     /// Ranges of the nodes, metres.
@@ -48,7 +72,7 @@ impl Bathymetry {
         &self.depth_m
     }
 
-    /// Depth of the sea floor at a range, metres.
+    /// Depth at a range, metres, on the straight line between nodes.
     pub fn depth_at_m(&self, range_m: f64) -> f64 {
         let after = self.range_m.partition_point(|&node| node <= range_m);
         if after == 0 {
@@ -62,7 +86,7 @@ impl Bathymetry {
         self.depth_m[after - 1] + weight * (self.depth_m[after] - self.depth_m[after - 1])
     }
 
-    /// The greatest depth of the sea floor, metres.
+    /// The greatest depth, metres.
     pub fn deepest_m(&self) -> f64 {
         self.depth_m.iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
@@ -74,13 +98,13 @@ mod tests {
 
     #[test]
     fn the_floor_is_straight_between_nodes_and_level_beyond() {
-        let floor = Bathymetry::new(vec![0.0, 1000.0], vec![100.0, 300.0]).unwrap();
+        let floor = Interface::new(vec![0.0, 1000.0], vec![100.0, 300.0]).unwrap();
         assert_eq!(floor.depth_at_m(-5.0).to_bits(), 100f64.to_bits());
         assert!((floor.depth_at_m(250.0) - 150.0).abs() < 1e-12);
         assert!((floor.depth_at_m(1000.0) - 300.0).abs() < 1e-12);
         assert!((floor.depth_at_m(1e9) - 300.0).abs() < 1e-12);
         assert!(matches!(
-            Bathymetry::new(vec![0.0, 0.0], vec![1.0, 1.0]),
+            Interface::new(vec![0.0, 0.0], vec![1.0, 1.0]),
             Err(AcousticsError::NotAscending { index: 1, .. })
         ));
     }

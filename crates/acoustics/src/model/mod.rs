@@ -1,0 +1,36 @@
+//! Propagation models: what answers a [`Case`]. There are two, this crate's own
+//! ([`Native`]) and an external program of the BELLHOP family.
+
+mod case;
+mod native;
+
+pub use case::{Case, Run};
+pub use native::Native;
+
+use crate::error::AcousticsError;
+use crate::field::{Arrivals, Field};
+use crate::ray::Ray;
+
+/// The answer to a [`Case`], an entry for each of its sources.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// To [`Run::Field`].
+    Fields(Vec<Field>),
+    /// To [`Run::Rays`] and [`Run::Eigenrays`].
+    Rays(Vec<Vec<Ray>>),
+    /// To [`Run::Arrivals`].
+    Arrivals(Vec<Arrivals>),
+}
+
+/// Computes how sound spreads through a section of the sea.
+pub trait PropagationModel: Send + Sync {
+    /// By what name people know it.
+    fn name(&self) -> &str;
+
+    /// Answers a case.
+    ///
+    /// # Errors
+    /// If a source is not in the water, the case asks for something that the model
+    /// does not offer, or the model fails.
+    fn solve(&self, case: &Case) -> Result<Output, AcousticsError>;
+}
