@@ -256,7 +256,7 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let cache = LossCache::new(home.path());
         let entry = cache.open(name('a'), CELLS);
-        for source in 0..ROWS_IN_CHUNK + 1 {
+        for source in 0..=ROWS_IN_CHUNK {
             entry.keep(CellId(source % CELLS), &row(source % CELLS));
         }
         // The entry is dropped as by a kill: what waited is lost.

@@ -94,7 +94,7 @@ impl LossTableSettings {
 /// Rows of a table, and how many of them had been computed before.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LossTableRows {
-    /// A row for each source, in the order of the sources, [target], dB.
+    /// Losses from each source, in the order of the sources, to all cells, dB.
     pub rows: Vec<Vec<f32>>,
     /// How many were read from the cache.
     pub from_cache: usize,
