@@ -1,7 +1,11 @@
-//! Files of the BELLHOP family of beam tracers.
+//! Files of the BELLHOP family of beam tracers, and such programs themselves.
 
-mod environment_file;
-mod lines;
-mod tables;
+mod case_files;
+mod companions;
+mod options;
+mod read;
+mod records;
+mod write;
 
-pub use environment_file::read_case;
+pub use case_files::CaseFiles;
+pub use read::{Reading, read_case};
