@@ -43,6 +43,30 @@ pub enum AcousticsError {
         /// Depth of the sea floor at its deepest, metres.
         deepest_floor_m: f64,
     },
+    /// The surface rises above the sound-speed levels.
+    #[error(
+        "the surface lies at {surface_m} m at the range of {range_m} m, above the first sound-speed level at {first_level_m} m"
+    )]
+    SurfaceAboveLevels {
+        /// Where, metres.
+        range_m: f64,
+        /// Depth of the surface there, metres.
+        surface_m: f64,
+        /// Depth of the first level, metres.
+        first_level_m: f64,
+    },
+    /// The surface lies below the sea floor.
+    #[error(
+        "there is no water at the range of {range_m} m: the surface lies at {surface_m} m, the sea floor at {floor_m} m"
+    )]
+    NoWater {
+        /// Where, metres.
+        range_m: f64,
+        /// Depth of the surface there, metres.
+        surface_m: f64,
+        /// Depth of the sea floor there, metres.
+        floor_m: f64,
+    },
     /// The source is not in the water.
     #[error(
         "the source at {source_depth_m} m is not in the water, which reaches from {surface_m} m to {floor_m} m there"
