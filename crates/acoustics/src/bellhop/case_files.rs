@@ -61,7 +61,9 @@ impl CaseFiles {
     /// directions of unequal distances in a run that adds beams up.
     pub fn of(case: &Case, path: &Path) -> Result<Self, AcousticsError> {
         let texts = write_texts(case)?;
-        Ok(texts.into_iter().fold(Self::new(path), |files, (ending, text)| files.with(ending, text)))
+        Ok(texts
+            .into_iter()
+            .fold(Self::new(path), |files, (ending, text)| files.with(ending, text)))
     }
 
     /// The same files with another text in place of that of one ending (`"env"`,
@@ -102,10 +104,8 @@ impl CaseFiles {
     pub fn save(&self) -> Result<(), AcousticsError> {
         self.texts.iter().try_for_each(|(ending, text)| {
             let path = self.path(ending);
-            std::fs::write(&path, text).map_err(|error| AcousticsError::Unwritable {
-                path,
-                reason: error.to_string(),
-            })
+            std::fs::write(&path, text)
+                .map_err(|error| AcousticsError::Unwritable { path, reason: error.to_string() })
         })
     }
 }

@@ -12,8 +12,8 @@ use crate::field::BeamPattern;
 
 const KM: f64 = 1000.0;
 
-/// Opens the file of an ending, which a line of the `.env` file refers to.
-fn open<'a>(
+/// The file of an ending, which a line of the `.env` file refers to.
+pub(crate) fn require<'a>(
     files: &'a CaseFiles,
     ending: &str,
     env: &Records,
@@ -34,7 +34,7 @@ pub(crate) fn read_interface(
     env: &Records,
     unit: AttenuationUnit,
 ) -> Result<(Interface, Option<Boundary>), AcousticsError> {
-    let mut records = open(files, ending, env)?;
+    let mut records = require(files, ending, env)?;
     let (letters, _) = records.text("the type of the interface in quotes")?;
     let mut letters = letters.chars();
     let shape = match letters.next() {
@@ -52,7 +52,8 @@ pub(crate) fn read_interface(
     let mut beyond: Option<[f64; 5]> = None;
     for _ in 0..count {
         let [range_km, depth] = if long {
-            let expected = "a range in km, a depth in m, two speeds, a density and two attenuations";
+            let expected =
+                "a range in km, a depth in m, two speeds, a density and two attenuations";
             let [range_km, depth, found @ ..] = records.all::<7>(expected)?;
             if beyond.is_some_and(|beyond| beyond != found) {
                 return Err(records.unsupported("a bottom that changes with range:", "long format"));
@@ -76,7 +77,7 @@ pub(crate) fn read_sound_speed(
     env: &Records,
     depth_m: Vec<f64>,
 ) -> Result<SoundSpeedField, AcousticsError> {
-    let mut records = open(files, "ssp", env)?;
+    let mut records = require(files, "ssp", env)?;
     let columns = records.count("the number of profiles")?;
     let row = |records: &mut Records, expected| {
         let mut row = vec![f64::NAN; columns];
@@ -101,7 +102,7 @@ pub(crate) fn read_reflection(
     ending: &str,
     env: &Records,
 ) -> Result<ReflectionTable, AcousticsError> {
-    let mut records = open(files, ending, env)?;
+    let mut records = require(files, ending, env)?;
     let count = records.count("the number of reflection coefficients")?;
     let (mut angle, mut modulus, mut phase) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..count {
@@ -118,7 +119,7 @@ pub(crate) fn read_beam_pattern(
     files: &CaseFiles,
     env: &Records,
 ) -> Result<BeamPattern, AcousticsError> {
-    let mut records = open(files, "sbp", env)?;
+    let mut records = require(files, "sbp", env)?;
     let count = records.count("the number of angles of the beam pattern")?;
     let (mut angle, mut level) = (Vec::new(), Vec::new());
     for _ in 0..count {

@@ -2,7 +2,9 @@
 
 use super::records::Records;
 use crate::error::AcousticsError;
-use crate::field::{BeamCoordinates, BeamKind, BeamShape, Coherence, ReceiverLayout, SourceGeometry};
+use crate::field::{
+    BeamCoordinates, BeamKind, BeamShape, Coherence, ReceiverLayout, SourceGeometry,
+};
 use crate::model::Run;
 use std::f64::consts::{PI, TAU};
 

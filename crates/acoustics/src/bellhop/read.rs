@@ -1,5 +1,7 @@
 use super::case_files::CaseFiles;
-use super::companions::{read_beam_pattern, read_interface, read_reflection, read_sound_speed};
+use super::companions::{
+    read_beam_pattern, read_interface, read_reflection, read_sound_speed, require,
+};
 use super::options::{AttenuationUnit, Options, RunType};
 use super::records::Records;
 use crate::environment::{
@@ -91,7 +93,8 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
 
     let automatic = automatic_beams(run_type.run, frequency_hz, longest_m, depth_m);
     let fan = read_fan(&mut env, water.single_beam, automatic)?;
-    let [_, deepest_m, far_km]: [f64; 3] = env.all("a step in m, a depth in m and a range in km")?;
+    let [_, deepest_m, far_km]: [f64; 3] =
+        env.all("a step in m, a depth in m and a range in km")?;
     env.blame(within("the greatest range of rays", "positive", far_km, far_km > 0.0))?;
     let mut settings = TraceSettings::to_range(far_km * KM);
     if deepest_m <= *water.section.sound_speed().depth_m().last().unwrap_or(&deepest_m) {
@@ -165,6 +168,9 @@ impl Water {
                 profile_option,
             ));
         }
+        if profile_option == 'Q' {
+            require(files, "ssp", env)?;
+        }
         let surface = SurfaceOrBottom::read(files, env, options.letter(1), unit, "trc")?;
         let absorption = read_absorption(env, options.letter(3))?;
 
@@ -194,7 +200,8 @@ impl Water {
         let bottom = SurfaceOrBottom::read(files, env, options.letter(0), unit, "brc")?;
         let bottom = bottom.over(env, unit, bottom_density)?;
         let mut section = env.blame(Section::new(sound_speed, bathymetry, bottom))?;
-        if let (Some(beyond), Boundary::Fluid(_) | Boundary::Elastic(_)) = (beyond, &section.bottom) {
+        if let (Some(beyond), Boundary::Fluid(_) | Boundary::Elastic(_)) = (beyond, &section.bottom)
+        {
             section.bottom = beyond;
         }
         section.surface = surface.over(env, unit, top_density)?;
@@ -268,8 +275,7 @@ pub(crate) fn half_space(
     water_density: f64,
 ) -> Result<Boundary, AcousticsError> {
     let attenuation = unit.db_wavelength(attenuation, speed);
-    let fluid =
-        records.blame(FluidHalfSpace::new(speed, density / water_density, attenuation))?;
+    let fluid = records.blame(FluidHalfSpace::new(speed, density / water_density, attenuation))?;
     if shear == 0.0 {
         return Ok(Boundary::Fluid(fluid));
     }
@@ -308,7 +314,8 @@ impl Levels {
         /// The last level may be written with other digits than the depth.
         const SAME_DEPTH_M: f64 = 1e-3;
         let expected = "a depth and a sound speed";
-        let [mut depth_m, mut speed_m_s, mut density, mut db_wavelength] = [const { Vec::new() }; 4];
+        let [mut depth_m, mut speed_m_s, mut density, mut db_wavelength] =
+            [const { Vec::new() }; 4];
         // What a slash leaves out carries over from the level before.
         let mut level = [f64::NAN, 1500.0, 0.0, 1.0, 0.0, 0.0];
         loop {
@@ -377,7 +384,8 @@ fn automatic_beams(run: Run, frequency_hz: f64, longest_m: f64, depth_m: f64) ->
     // Neighbours a tenth of the depth apart where they are furthest.
     let angle_rad = (depth_m / (10.0 * longest_m)).atan();
     let beams = (0.3 * wavelengths).max(std::f64::consts::PI / angle_rad);
-    beams.clamp(LEAST, MOST) as usize
+    // Whole numbers may have lost their last digit.
+    (beams.clamp(LEAST, MOST) + 1e-6) as usize
 }
 
 fn read_fan(

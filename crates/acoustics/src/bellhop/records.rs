@@ -148,7 +148,11 @@ impl<'a> Records<'a> {
     ) -> Result<[f64; N], AcousticsError> {
         let mut values = [f64::NAN; N];
         self.values(expected, &mut values)?;
-        if values.iter().any(|value| value.is_nan()) { Err(self.syntax(expected)) } else { Ok(values) }
+        if values.iter().any(|value| value.is_nan()) {
+            Err(self.syntax(expected))
+        } else {
+            Ok(values)
+        }
     }
 
     /// One count, at most a million.
@@ -171,6 +175,28 @@ impl<'a> Records<'a> {
         } else {
             Err(self.syntax(expected))
         }
+    }
+
+    /// A count, and as many values in the same record.
+    pub(crate) fn counted(&mut self, expected: &'static str) -> Result<Vec<f64>, AcousticsError> {
+        let start = self.next;
+        let count = self.count(expected)?;
+        self.next = start;
+        let mut values = vec![f64::NAN; count + 1];
+        self.values(expected, &mut values)?;
+        values.remove(0);
+        if values.iter().any(|value| value.is_nan()) {
+            Err(self.syntax(expected))
+        } else {
+            Ok(values)
+        }
+    }
+
+    /// Whether nothing is left but blank lines and comments.
+    pub(crate) fn at_end(&self) -> bool {
+        self.lines[self.next.min(self.lines.len())..]
+            .iter()
+            .all(|line| without_comment(line).trim().is_empty())
     }
 
     /// A count, which is not 0, and as many values; two values and a slash stand for
@@ -299,7 +325,8 @@ mod tests {
         ] {
             assert_eq!(read(text, 3).unwrap(), expected, "{text:?}");
         }
-        for text in ["1 two 3", "1 nan 3", "inf 1 1", "1e999 1 1", "1", "0*1 1 1", "x*1", "1-", ""] {
+        for text in ["1 two 3", "1 nan 3", "inf 1 1", "1e999 1 1", "1", "0*1 1 1", "x*1", "1-", ""]
+        {
             assert!(read(text, 3).is_err(), "{text:?}");
         }
     }
@@ -324,7 +351,13 @@ mod tests {
     fn two_values_and_a_slash_are_steps() {
         let mut records = Records::new(Path::new("x.env"), "5\n0 10 /\n3\n1 /\n1000000000000\n");
         assert_eq!(records.vector("a count", "values").unwrap(), [0.0, 2.5, 5.0, 7.5, 10.0]);
-        assert!(matches!(records.vector("a count", "values"), Err(AcousticsError::Syntax { line: 4, .. })));
-        assert!(matches!(records.vector("a count", "values"), Err(AcousticsError::Unsupported { line: 5, .. })));
+        assert!(matches!(
+            records.vector("a count", "values"),
+            Err(AcousticsError::Syntax { line: 4, .. })
+        ));
+        assert!(matches!(
+            records.vector("a count", "values"),
+            Err(AcousticsError::Unsupported { line: 5, .. })
+        ));
     }
 }

@@ -55,7 +55,11 @@ pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, Ac
     let far_m = case.settings.far_m.max(-case.settings.near_m);
     let step_m = (far_m / 1000.0).clamp(1.0, 20.0);
     // Rays touch the bottom of the water, so the box reaches beyond it.
-    let box_m = if case.settings.deepest_m <= deepest_m { case.settings.deepest_m } else { deepest_m + 1.0 };
+    let box_m = if case.settings.deepest_m <= deepest_m {
+        case.settings.deepest_m
+    } else {
+        deepest_m + 1.0
+    };
     env.push(format!("{step_m} {box_m} {}  ! step, m; box, m and km", far_m / KM));
 
     let mut texts = vec![("env", lines(env))];
@@ -71,9 +75,10 @@ pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, Ac
     for (ending, boundary) in [("trc", &section.surface), ("brc", &section.bottom)] {
         if let Boundary::Table(table) = boundary {
             let moduli = table.modulus().iter().zip(table.phase_rad());
-            let entries = table.grazing_angle_deg().iter().zip(moduli).map(
-                |(angle, (modulus, phase))| format!("{angle} {modulus} {}", phase.to_degrees()),
-            );
+            let entries =
+                table.grazing_angle_deg().iter().zip(moduli).map(|(angle, (modulus, phase))| {
+                    format!("{angle} {modulus} {}", phase.to_degrees())
+                });
             texts.push((ending, table_text(entries)));
         }
     }
