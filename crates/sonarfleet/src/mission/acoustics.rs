@@ -47,6 +47,7 @@ impl Acoustics {
             fleet_depth_m: scenario.fleet_depth_m,
             maximum_range_m: scenario.maximum_range_m.unwrap_or(f64::INFINITY),
             numerics: scenario.quality.numerics(),
+            model: scenario.loss_model.clone(),
         };
         Ok(Self { waters, settings })
     }
@@ -71,6 +72,7 @@ impl Acoustics {
         let numerics = &self.settings.numerics;
         let diagonal_m = scenario.grid.width_m().hypot(scenario.grid.height_m());
         LossTableMetrics {
+            model: self.settings.model.name().to_owned(),
             both_directions: scenario.directions == Directions::Both,
             beams: numerics.beam_count(),
             bearings: numerics.bearings,
@@ -91,6 +93,7 @@ impl Acoustics {
             maximum_range_m: scenario.maximum_range_m,
             directions: scenario.directions,
             time: state.time.to_string(),
+            model: settings.model.name().into(),
             quality: scenario.quality.name().into(),
             beams: numerics.beam_count(),
             bearings: numerics.bearings,

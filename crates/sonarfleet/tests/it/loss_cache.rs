@@ -3,9 +3,10 @@
 use sonarfleet::grid::{CellId, SurveillanceGrid};
 use sonarfleet::sonar::section::Waters;
 use sonarfleet::sonar::transmission_loss::{
-    BeamClass, LossCache, LossTableSettings, Numerics, Quality, compute_rows, rows_with_cache,
-    table_fingerprint,
+    BeamClass, LossCache, LossTableSettings, Numerics, Quality, TableModel, compute_rows,
+    rows_with_cache, table_fingerprint,
 };
+use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::environment::{Boundary, Seabed};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
 use sonarfleet_ocean::synthetic::SyntheticOcean;
@@ -51,6 +52,7 @@ impl Ingredients {
                 fleet_depth_m: 200.0,
                 maximum_range_m: f64::INFINITY,
                 numerics: Quality::Fast.numerics(),
+                model: TableModel::Native,
             },
         }
     }
@@ -94,7 +96,7 @@ impl Ingredients {
 #[test]
 fn every_ingredient_changes_the_fingerprint() {
     type Change = fn(&mut Ingredients);
-    let changes: [(&str, Change); 22] = [
+    let changes: [(&str, Change); 23] = [
         ("temperature", |i| {
             i.state.temperature_c.iter_mut().for_each(|t| *t += 1e-3);
         }),
@@ -127,6 +129,9 @@ fn every_ingredient_changes_the_fingerprint() {
         ("range step", |i| i.settings.numerics.range_step_m += 1.0),
         ("beams", |i| i.settings.numerics.beam_classes[0].beams += 2),
         ("angles", |i| i.settings.numerics.beam_classes[1].limit_deg += 0.5),
+        ("model", |i| {
+            i.settings.model = TableModel::Bellhop(Executable::new("bellhop.exe".into()));
+        }),
         ("tolerance", |i| i.settings.numerics.beam_classes[2].speed_tolerance_m_s += 0.1),
     ];
     let same = Ingredients::new();

@@ -118,11 +118,15 @@ pub fn table_fingerprint(
     settings: &LossTableSettings,
 ) -> String {
     let version = format!("rows {TABLE_VERSION} of sonarfleet {}", env!("CARGO_PKG_VERSION"));
+    let LossTableSettings { frequency_hz, fleet_depth_m, maximum_range_m, numerics, model } =
+        settings;
     // `{:?}` says numbers with as many digits as tell them apart.
     waters
         .add_to(Fingerprint::default().text(&version))
         .text(&format!("{grid:?}"))
-        .text(&format!("{settings:?}"))
+        .numbers(&[*frequency_hz, *fleet_depth_m, *maximum_range_m])
+        .text(&format!("{numerics:?}"))
+        .text(&model.identity())
         .finish()
 }
 

@@ -1,3 +1,4 @@
+use super::model::{TableModel, profile_by};
 use super::quality::Numerics;
 use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
@@ -87,6 +88,9 @@ impl<'a> RowComputer<'a> {
         let count = (reach_m / step_m).ceil() as usize;
         if count == 0 {
             return Ok(RangeProfile { step_m, intensity: Vec::new() });
+        }
+        if let TableModel::Bellhop(program) = &self.settings.model {
+            return profile_by(program, self.waters, self.settings, centre, bearing_rad, count);
         }
         let length_m = count as f64 * step_m;
         let depth_m = self.settings.fleet_depth_m;
