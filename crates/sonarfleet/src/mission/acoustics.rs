@@ -69,22 +69,21 @@ impl Acoustics {
 
     /// How a table of these acoustics is described in records.
     pub(super) fn metrics(&self, scenario: &Scenario) -> LossTableMetrics {
-        let numerics = &self.settings.numerics;
+        let settings = &self.settings;
         let diagonal_m = scenario.grid.width_m().hypot(scenario.grid.height_m());
         LossTableMetrics {
-            model: self.settings.model.name().to_owned(),
+            model: settings.model.name().to_owned(),
             both_directions: scenario.directions == Directions::Both,
-            beams: numerics.beam_count(),
-            bearings: numerics.bearings,
-            range_m: self.settings.maximum_range_m.min(diagonal_m),
-            ..LossTableMetrics::from_file(self.settings.frequency_hz)
+            beams: settings.beam_count(),
+            bearings: settings.numerics.bearings,
+            range_m: settings.maximum_range_m.min(diagonal_m),
+            ..LossTableMetrics::from_file(settings.frequency_hz)
         }
     }
 
     /// How a table of these acoustics is described in files.
     pub fn description(&self, scenario: &Scenario, state: &OceanState) -> LossDescription {
         let Self { waters, settings } = self;
-        let numerics = &settings.numerics;
         LossDescription {
             columns: scenario.grid.columns,
             rows: scenario.grid.rows,
@@ -95,8 +94,8 @@ impl Acoustics {
             time: state.time.to_string(),
             model: settings.model.name().into(),
             quality: scenario.quality.name().into(),
-            beams: numerics.beam_count(),
-            bearings: numerics.bearings,
+            beams: settings.beam_count(),
+            bearings: settings.numerics.bearings,
             fingerprint: table_fingerprint(waters, &scenario.grid, settings),
         }
     }

@@ -155,9 +155,10 @@ pub(super) fn loss_model(
 ) -> Result<TableModel, ScenarioError> {
     match name {
         ModelName::Native => Ok(TableModel::Native),
-        ModelName::Bellhop => Executable::find()
-            .map(TableModel::Bellhop)
-            .map_err(|error| checker.wrong("transmission_loss.model", "bellhop", error)),
+        ModelName::Bellhop => Executable::find().map(TableModel::Bellhop).map_err(|error| {
+            let expected = format!("\"native\", or a program to run: {error}");
+            checker.wrong("transmission_loss.model", "\"bellhop\"", expected)
+        }),
     }
 }
 

@@ -1,3 +1,4 @@
+use super::quality::Numerics;
 use super::table::LossTableSettings;
 use crate::fingerprint::hexadecimal;
 use crate::grid::Position;
@@ -64,7 +65,7 @@ pub(super) fn profile_by(
     model.intensity_profile(&Slice {
         section: &section,
         source: Source { depth_m: settings.fleet_depth_m, frequency_hz: settings.frequency_hz },
-        fan: &dense_fan(settings)?,
+        fan: &dense_fan(numerics)?,
         settings: &trace,
         receiver_depth_m: settings.fleet_depth_m,
         step_m,
@@ -72,16 +73,31 @@ pub(super) fn profile_by(
     })
 }
 
+impl LossTableSettings {
+    /// Beams per slice.
+    pub fn beam_count(&self) -> usize {
+        match self.model {
+            TableModel::Native => self.numerics.beam_count(),
+            TableModel::Bellhop(_) => dense_beams(&self.numerics).1,
+        }
+    }
+}
+
 /// A fan over all classes, everywhere as dense as the densest.
-fn dense_fan(settings: &LossTableSettings) -> Result<LaunchFan, AcousticsError> {
+fn dense_fan(numerics: &Numerics) -> Result<LaunchFan, AcousticsError> {
+    let (limit_deg, beams) = dense_beams(numerics);
+    LaunchFan::uniform(-limit_deg, limit_deg, beams)
+}
+
+/// How far up and down such a fan reaches, degrees, and its number of beams.
+fn dense_beams(numerics: &Numerics) -> (f64, usize) {
     let (mut inner_deg, mut finest_deg) = (0.0, f64::INFINITY);
-    for class in &settings.numerics.beam_classes {
+    for class in &numerics.beam_classes {
         let spacing_deg = 2.0 * (class.limit_deg - inner_deg) / class.beams as f64;
         finest_deg = spacing_deg.min(finest_deg);
         inner_deg = class.limit_deg;
     }
-    let beams = (2.0 * inner_deg / finest_deg).round() as usize + 1;
-    LaunchFan::uniform(-inner_deg, inner_deg, beams)
+    (inner_deg, (2.0 * inner_deg / finest_deg).round() as usize + 1)
 }
 
 #[cfg(test)]
@@ -153,7 +169,7 @@ mod tests {
     #[test]
     fn the_fan_is_as_dense_as_its_densest_class() {
         let (.., settings) = setting();
-        let fan = dense_fan(&settings).unwrap();
+        let fan = dense_fan(&settings.numerics).unwrap();
         let spacing_deg = 24.0 / 160.0; // of the innermost class
         let beams = fan.beams();
         assert_eq!(beams.len(), (110.0_f64 / spacing_deg).round() as usize + 1);
