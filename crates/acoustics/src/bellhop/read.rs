@@ -23,6 +23,16 @@ const MOST_RECEIVERS: usize = 50_000_000;
 const LEAST_BOX_M: f64 = 1.0;
 const MOST_BOX_M: f64 = 1e8;
 
+/// Levels are not further from the surface than this.
+const MOST_DEPTH_M: f64 = 1e6;
+
+/// Checks that a sound speed is one of water, generously: what is far from it makes
+/// profiles too steep to follow.
+pub(crate) fn check_speed(records: &Records, speed_m_s: f64) -> Result<(), AcousticsError> {
+    let watery = (100.0..=10_000.0).contains(&speed_m_s);
+    records.blame(within("a sound speed in water in m/s", "from 100 to 10 000", speed_m_s, watery))
+}
+
 /// What the files of a case say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
@@ -351,7 +361,9 @@ impl Levels {
             if attenuation != 0.0 && depth_m.is_empty() && found < 5 {
                 note(notes, env, "the attenuation of the half-space above holds for the water too");
             }
-            env.blame(within("a sound speed", "positive", speed, speed > 0.0))?;
+            check_speed(env, speed)?;
+            let on_earth = depth.abs() <= MOST_DEPTH_M;
+            env.blame(within("a depth in m", "from -1e6 to 1e6", depth, on_earth))?;
             env.blame(within("a density of water", "positive", rho, rho > 0.0))?;
             depth_m.push(depth);
             speed_m_s.push(speed);

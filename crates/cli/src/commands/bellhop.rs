@@ -10,7 +10,7 @@ use sonarfleet_acoustics::bellhop::{
     CaseFiles, Executable, Reading, ShadeFile, abandon_all, fatal_text, output_file, print_text,
 };
 use sonarfleet_acoustics::field::Field;
-use sonarfleet_acoustics::model::{Native, Output, PropagationModel};
+use sonarfleet_acoustics::model::{Native, Output, PropagationModel, Run};
 use sonarfleet_ocean::io::replace_file;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -51,6 +51,10 @@ fn solve(args: &BellhopArgs, target: &Target, manner: Manner) -> Result<()> {
             eprintln!("note: {note}");
         }
     }
+    ensure!(
+        args.compare.is_none() || matches!(case.run, Run::Field(_)),
+        "--compare is for fields (.shd), but the run type of the case asks for others"
+    );
     let model = model(args)?;
     let bar = Progress::new(&format!("{} model", model.name()), !manner.talkative());
     let started = Instant::now();
@@ -129,7 +133,7 @@ struct Differences {
 const FAINTEST_DB: f64 = 300.0;
 
 fn compare(output: &Output, other: &Path) -> Result<Differences> {
-    let Output::Fields(ours) = output else { bail!("--compare is for fields (.shd)") };
+    let Output::Fields(ours) = output else { bail!("the model gave no fields") };
     let bytes = std::fs::read(other).with_context(|| format!("cannot read {}", other.display()))?;
     let theirs = ShadeFile::from_bytes(other, &bytes)?.fields;
     let shapes = |fields: &[Field]| fields.iter().map(|f| f.pressure.len()).collect::<Vec<_>>();
