@@ -55,7 +55,7 @@ pub(crate) fn read_interface(
             let expected =
                 "a range in km, a depth in m, two speeds, a density and two attenuations";
             let [range_km, depth, found @ ..] = records.all::<7>(expected)?;
-            if beyond.is_some_and(|beyond| beyond != found) {
+            if beyond.is_some_and(|beyond| beyond.map(f64::to_bits) != found.map(f64::to_bits)) {
                 return Err(records.unsupported("a bottom that changes with range:", "long format"));
             }
             beyond = Some(found);

@@ -85,7 +85,9 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     sort(&mut receiver_depth_m, &mut notes, &env);
     let mut range_m = env.vector("the number of receiver ranges", "receiver ranges in km")?;
     sort(&mut range_m, &mut notes, &env);
-    range_m.iter_mut().for_each(|range| *range *= KM);
+    for range in &mut range_m {
+        *range *= KM;
+    }
     let place = env.place().1;
 
     let run_type = RunType::read(&mut env)?;

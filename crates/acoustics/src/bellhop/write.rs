@@ -62,7 +62,7 @@ pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, Ac
     };
     env.push(format!("{step_m} {box_m} {}  ! step, m; box, m and km", far_m / KM));
 
-    let mut texts = vec![("env", lines(env))];
+    let mut texts = vec![("env", lines(&env))];
     if law == 'Q' {
         texts.push(("ssp", sound_speed_text(case)));
     }
@@ -93,7 +93,7 @@ fn not_offered(what: &'static str) -> AcousticsError {
     AcousticsError::NotOffered { model: "BELLHOP", what }
 }
 
-fn lines(lines: Vec<String>) -> String {
+fn lines(lines: &[String]) -> String {
     lines.join("\n") + "\n"
 }
 

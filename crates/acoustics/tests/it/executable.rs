@@ -96,7 +96,7 @@ fn a_truncated_output_is_seen() {
     let Output::Fields(written) = output else { panic!("a field was expected") };
     assert_eq!(read[0].range_m, written[0].range_m);
     for (a, b) in read[0].loss_db().iter().zip(written[0].loss_db()) {
-        assert!((a - b).abs() < 1e-4 || a == &b);
+        assert!((a - b).abs() < 1e-4 || (a.is_infinite() && b.is_infinite()));
     }
 }
 
@@ -109,7 +109,7 @@ fn a_program_that_hangs_is_killed_and_leaves_nothing() {
     let started = Instant::now();
     let complaint = program.solve(&small_case()).unwrap_err().to_string();
     assert!(complaint.contains("it was killed after 0.5 s"), "{complaint}");
-    assert!(started.elapsed() < Duration::from_secs(60));
+    assert!(started.elapsed() < Duration::from_mins(1));
     let directory = std::fs::read_to_string(&witness).unwrap();
     assert!(!Path::new(directory.trim()).exists(), "{directory} is left");
 }
@@ -195,7 +195,8 @@ fn median_db(ours: &[Field], theirs: &[Field]) -> f64 {
 fn the_real_program_answers_every_kind_of_case() {
     const MEDIAN_DB: f64 = 0.1;
     let Some(real) = real() else { return };
-    for name in ["spline", "lossy_water", "waves", "ice", "pairs", "arrivals", "rays", "eigenrays"] {
+    for name in ["spline", "lossy_water", "waves", "ice", "pairs", "arrivals", "rays", "eigenrays"]
+    {
         let case = read_case(&folder("features").join(name)).unwrap();
         let (ours, theirs) = (Native.solve(&case).unwrap(), real.solve(&case).unwrap());
         match (ours, theirs) {
@@ -205,9 +206,8 @@ fn the_real_program_answers_every_kind_of_case() {
             }
             (Output::Arrivals(ours), Output::Arrivals(theirs)) => {
                 for (a, b) in ours[0].at.iter().zip(&theirs[0].at) {
-                    let first = |arrivals: &[sonarfleet_acoustics::field::Arrival]| {
-                        arrivals[0].delay_s
-                    };
+                    let first =
+                        |arrivals: &[sonarfleet_acoustics::field::Arrival]| arrivals[0].delay_s;
                     assert!((first(a) - first(b)).abs() < 1e-3, "{name}");
                 }
             }

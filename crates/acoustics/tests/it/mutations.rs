@@ -13,8 +13,30 @@ const ENDINGS: [&str; 7] = ["env", "bty", "ssp", "ati", "brc", "trc", "sbp"];
 
 /// What takes the place of numbers.
 const NASTY: [&str; 24] = [
-    "nan", "inf", "-1", "1e308", "-1e308", "1e-308", "0", "-0.0", "1000000000000", "99999999", "1e9",
-    "4294967296", "x", "'", "/", ",", "!", "''", "7*", "999999999999*1.5", "1e999", "-90", "3", "1 2 3",
+    "nan",
+    "inf",
+    "-1",
+    "1e308",
+    "-1e308",
+    "1e-308",
+    "0",
+    "-0.0",
+    "1000000000000",
+    "99999999",
+    "1e9",
+    "4294967296",
+    "x",
+    "'",
+    "/",
+    ",",
+    "!",
+    "''",
+    "7*",
+    "999999999999*1.5",
+    "1e999",
+    "-90",
+    "3",
+    "1 2 3",
 ];
 
 /// What numbers are multiplied by.
@@ -62,7 +84,10 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
             bytes[at] = dice.next() as u8;
             return String::from_utf8_lossy(&bytes).into_owned();
         }
-        4 => return String::from_utf8_lossy(&text.as_bytes()[..dice.below(text.len())]).into_owned(),
+        4 => {
+            return String::from_utf8_lossy(&text.as_bytes()[..dice.below(text.len())])
+                .into_owned();
+        }
         _ => {
             let mut tokens: Vec<&str> = lines[at].split_whitespace().collect();
             if tokens.is_empty() {
@@ -133,7 +158,7 @@ fn damaged_inputs_are_refused_with_file_and_line_or_solved() {
                         // The source may lie in the sea floor.
                         Ok(Err(AcousticsError::SourceOutsideWater { .. })) => {}
                         Ok(Err(error)) => panic!("{error}\n{text}"),
-                        Err(_) => panic!("the panic above was over\n{text}\n{case:?}"),
+                        Err(_panic) => panic!("the panic above was over\n{text}\n{case:?}"),
                     }
                 }
             }
