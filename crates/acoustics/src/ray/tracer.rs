@@ -345,9 +345,7 @@ impl Tracer<'_> {
         if let Some(bend) = wall.bend {
             let tangent = Pair::new(normal.z, -normal.x);
             let slip = ray.offset.dot(tangent) - along * ray.offset.dot(normal) / across;
-            // The tangent turns by dφ/dx; the straight piece is longer than its dx.
-            let turning = -bend.turning_rad_m * wall.normal.z.abs();
-            let kick = -2.0 * turning * side * slip;
+            let kick = 2.0 * bend.curvature_m * side * slip;
             offset_slowness = offset_slowness + (normal * along + tangent * across) * kick;
         }
         ray.offset_slowness = offset_slowness;
