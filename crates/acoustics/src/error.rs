@@ -95,6 +95,58 @@ pub enum AcousticsError {
         /// What the system says.
         reason: String,
     },
+    /// A file cannot be written.
+    #[error("{}: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A file refers to another, which is not there.
+    #[error("{}, line {line}: needs {}, which is not there", path.display(), needed.display())]
+    MissingCompanion {
+        /// The file that refers.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The file referred to.
+        needed: PathBuf,
+    },
+    /// What a file says makes no sense.
+    #[error("{}, line {line}: {problem}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Why.
+        problem: Box<AcousticsError>,
+    },
+    /// A binary file does not hold what belongs there.
+    #[error("{}, byte {byte}: expected {expected}", path.display())]
+    Binary {
+        /// The file.
+        path: PathBuf,
+        /// Where, from 0.
+        byte: usize,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// No external program was found.
+    #[error("no BELLHOP program found: {searched}. The native model needs no external program")]
+    NoExecutable {
+        /// What was looked for, and where.
+        searched: String,
+    },
+    /// An external program failed.
+    #[error("{}: {reason}", program.display())]
+    ExternalProgram {
+        /// The program.
+        program: PathBuf,
+        /// What it did, and what it said.
+        reason: String,
+    },
     /// A line of a file does not hold what belongs there.
     #[error("{}, line {line}: expected {expected}, found {found:?}", path.display())]
     Syntax {

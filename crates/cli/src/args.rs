@@ -1,6 +1,7 @@
 //! What can be typed: the command line, as clap parses it.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sonarfleet_acoustics::environment::Seabed;
 use std::path::PathBuf;
 
 /// Where a fleet of listening underwater vehicles should be, and how it gets there.
@@ -42,12 +43,26 @@ pub(crate) enum Command {
     Ocean(OceanCommand),
     /// Compute the transmission loss from every cell to every cell
     Tl(TlArgs),
+    /// Run a case of the BELLHOP family: a drop-in for bellhop.exe
+    Bellhop(BellhopArgs),
     /// Place the fleet on a scenario's epoch or on an instance file
     Place(PlaceArgs),
     /// Travel through the currents of a scenario or an instance file
     Route(RouteArgs),
     /// Assign vehicles to posts, given a matrix of costs
     Assign(AssignArgs),
+}
+
+/// Whether computed transmission loss is kept.
+#[derive(Debug, Args)]
+pub(crate) struct CacheArgs {
+    /// Neither read nor keep computed transmission loss
+    #[arg(
+        long,
+        help = "Neither read nor keep computed transmission loss [kept in: $SONARFLEET_CACHE, \
+            else $XDG_CACHE_HOME/sonarfleet, else ~/.cache/sonarfleet]"
+    )]
+    pub(crate) no_cache: bool,
 }
 
 /// Arguments of `run`.
@@ -68,6 +83,8 @@ pub(crate) struct RunArgs {
     /// Seed of all randomness [default: the scenario's]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 /// Arguments of `init`.
@@ -80,9 +97,30 @@ pub(crate) struct InitArgs {
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
+#[command(after_help = sea_floors())]
 pub(crate) struct CheckArgs {
     /// Scenario [default: the embedded one]
     pub(crate) scenario: Option<PathBuf>,
+}
+
+/// The sea floors that a scenario may name, with what they are and where from.
+fn sea_floors() -> String {
+    let lines = Seabed::ALL.map(|seabed| {
+        let floor = seabed.half_space();
+        format!(
+            "  {:<10} {:>4} m/s  {:<5} g/cm³  {:<4} dB per wavelength  {}",
+            seabed.name(),
+            floor.speed_m_s,
+            floor.density_ratio,
+            floor.attenuation_db_wavelength,
+            seabed.source(),
+        )
+    });
+    format!(
+        "Sea floors by name, `seabed.sediment` (speed, density, attenuation):\n{}\n\
+         COA: Jensen et al., Computational Ocean Acoustics, doi:10.1007/978-1-4419-8678-8",
+        lines.join("\n")
+    )
 }
 
 /// `ocean …`.
@@ -132,12 +170,20 @@ pub(crate) enum Quality {
     Fine,
 }
 
+/// What a table is for.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum LossUse {
+    Detection,
+    Communication,
+}
+
 /// Arguments of `tl`.
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     after_help = "Examples:\n  sonarfleet tl --output tl.nc\n  \
+        sonarfleet tl mission.toml --use communication --output links.nc\n  \
         sonarfleet tl mission.toml --epoch 2 --shard 1/4 --output part1.nc\n  \
         sonarfleet tl merge part1.nc part2.nc part3.nc part4.nc --output tl.nc"
 )]
@@ -150,12 +196,17 @@ pub(crate) struct TlArgs {
     /// Preset of beams and bearings [default: the scenario's]
     #[arg(long, value_enum)]
     pub(crate) quality: Option<Quality>,
+    /// What the table is for: at the sonar's frequency or at the modems'
+    #[arg(long = "use", value_enum, default_value = "detection")]
+    pub(crate) purpose: LossUse,
     /// Epoch whose ocean is used, from 0
     #[arg(long, default_value_t = 0, value_name = "K")]
     pub(crate) epoch: usize,
     /// Compute only the i-th of n parts of the sources, e.g. 2/8
     #[arg(long, value_name = "I/N", value_parser = parse_shard)]
     pub(crate) shard: Option<Shard>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     #[command(subcommand)]
     pub(crate) command: Option<TlCommand>,
 }
@@ -219,6 +270,11 @@ pub(crate) struct PlaceArgs {
     /// Transmission-loss table to use instead of computing one (scenario only)
     #[arg(long, value_name = "FILE")]
     pub(crate) loss: Option<PathBuf>,
+    /// The same for the links between vehicles (scenario only)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) communication_loss: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -339,4 +395,39 @@ pub(crate) struct AssignArgs {
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum AssignmentMethod {
     JonkerVolgenant,
+}
+
+/// Propagation models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ModelName {
+    /// Our own beam tracer, on all cores
+    Native,
+    /// The program $SONARFLEET_BELLHOP, else bellhop.exe or bellhop on the path
+    Bellhop,
+}
+
+/// Arguments of `bellhop`.
+#[derive(Debug, Args)]
+#[command(after_help = "Writes CASE.shd (fields), CASE.arr (arrivals) or CASE.ray (rays), as the \
+    run type asks, and CASE.prt.\n\nExamples:\n  \
+    sonarfleet bellhop munk.env                          writes munk.shd\n  \
+    sonarfleet bellhop munk --output out                 writes out/munk.shd\n  \
+    sonarfleet bellhop munk --compare theirs/munk.shd    and says how far they are apart\n  \
+    sonarfleet bellhop munk --model bellhop --output theirs")]
+pub(crate) struct BellhopArgs {
+    /// Case: CASE.env, with or without the ending, and the files beside it
+    #[arg(value_name = "CASE")]
+    pub(crate) case: PathBuf,
+    /// Directory to write into [default: that of the case]
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// What computes the field
+    #[arg(long, value_enum, default_value = "native")]
+    pub(crate) model: ModelName,
+    /// Field (.shd) of the same case to compare with: percentiles of the difference in dB
+    #[arg(long, value_name = "FILE")]
+    pub(crate) compare: Option<PathBuf>,
+    /// Seconds after which the external program is killed
+    #[arg(long, default_value_t = 3600.0, value_name = "S", value_parser = positive)]
+    pub(crate) timeout: f64,
 }

@@ -160,6 +160,21 @@ impl ReflectionTable {
         Ok(Self { grazing_angle_deg, modulus, phase_rad })
     }
 
+    /// Grazing angles, degrees.
+    pub fn grazing_angle_deg(&self) -> &[f64] {
+        &self.grazing_angle_deg
+    }
+
+    /// Moduli of the coefficients.
+    pub fn modulus(&self) -> &[f64] {
+        &self.modulus
+    }
+
+    /// Phases of the coefficients, radians.
+    pub fn phase_rad(&self) -> &[f64] {
+        &self.phase_rad
+    }
+
     fn reflection(&self, along: f64, across: f64) -> Complex {
         let angle = across.abs().atan2(along.abs()).to_degrees();
         let last = self.grazing_angle_deg.len() - 1;

@@ -1,6 +1,6 @@
-use super::{Case, Output, PropagationModel, Run};
+use super::{Case, Output, PropagationModel, Run, Slice};
 use crate::error::AcousticsError;
-use crate::field::Shot;
+use crate::field::{RangeProfile, RangeProfiler, Shot};
 use crate::ray::{Medium, MediumLimits};
 
 /// The model of this crate.
@@ -36,5 +36,15 @@ impl PropagationModel for Native {
             Run::Eigenrays => Output::Rays(shots.map(|shot| shot.eigenrays()).collect()),
             Run::Arrivals => Output::Arrivals(shots.map(|shot| shot.arrivals()).collect()),
         })
+    }
+
+    fn intensity_profile(&self, slice: &Slice<'_>) -> Result<RangeProfile, AcousticsError> {
+        RangeProfiler::new(slice.section, slice.settings).intensity(
+            &slice.source,
+            slice.fan,
+            slice.receiver_depth_m,
+            slice.step_m,
+            slice.count,
+        )
     }
 }
