@@ -5,4 +5,5 @@ mod bad_input;
 mod bellhop;
 mod closed_loop;
 mod links;
+mod loss_tables;
 mod program;
