@@ -2,7 +2,7 @@
 
 use super::case_files::CaseFiles;
 use super::options::AttenuationUnit;
-use super::read::half_space;
+use super::read::{check_speed, half_space};
 use super::records::Records;
 use crate::environment::{
     Boundary, Interface, InterfaceShape, ProfileLaw, ReflectionTable, SoundSpeedField,
@@ -55,7 +55,7 @@ pub(crate) fn read_interface(
             let expected =
                 "a range in km, a depth in m, two speeds, a density and two attenuations";
             let [range_km, depth, found @ ..] = records.all::<7>(expected)?;
-            if beyond.is_some_and(|beyond| beyond != found) {
+            if beyond.is_some_and(|beyond| beyond.map(f64::to_bits) != found.map(f64::to_bits)) {
                 return Err(records.unsupported("a bottom that changes with range:", "long format"));
             }
             beyond = Some(found);
@@ -86,10 +86,12 @@ pub(crate) fn read_sound_speed(
     };
     let range_m =
         row(&mut records, "a range in km for every profile")?.iter().map(|km| km * KM).collect();
-    let rows = depth_m
-        .iter()
-        .map(|_| row(&mut records, "a sound speed of every profile, in a row for every level"))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut rows = Vec::new();
+    for _ in &depth_m {
+        let speeds = row(&mut records, "a sound speed of every profile, in a row for every level")?;
+        speeds.iter().try_for_each(|&speed| check_speed(&records, speed))?;
+        rows.push(speeds);
+    }
     let speed_m_s =
         (0..columns).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
     let field = SoundSpeedField::new(range_m, depth_m, speed_m_s, ProfileLaw::LinearSpeed);

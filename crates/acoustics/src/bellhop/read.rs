@@ -19,6 +19,20 @@ const KM: f64 = 1000.0;
 /// More receivers than this, counted for every source, are taken for a damaged file.
 const MOST_RECEIVERS: usize = 50_000_000;
 
+/// Boxes are not smaller than this, nor longer than twice around the Earth.
+const LEAST_BOX_M: f64 = 1.0;
+const MOST_BOX_M: f64 = 1e8;
+
+/// Levels are not further from the surface than this.
+const MOST_DEPTH_M: f64 = 1e6;
+
+/// Checks that a sound speed is one of water, generously: what is far from it makes
+/// profiles too steep to follow.
+pub(crate) fn check_speed(records: &Records, speed_m_s: f64) -> Result<(), AcousticsError> {
+    let watery = (100.0..=10_000.0).contains(&speed_m_s);
+    records.blame(within("a sound speed in water in m/s", "from 100 to 10 000", speed_m_s, watery))
+}
+
 /// What the files of a case say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
@@ -71,7 +85,9 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     sort(&mut receiver_depth_m, &mut notes, &env);
     let mut range_m = env.vector("the number of receiver ranges", "receiver ranges in km")?;
     sort(&mut range_m, &mut notes, &env);
-    range_m.iter_mut().for_each(|range| *range *= KM);
+    for range in &mut range_m {
+        *range *= KM;
+    }
     let place = env.place().1;
 
     let run_type = RunType::read(&mut env)?;
@@ -95,9 +111,13 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     let fan = read_fan(&mut env, water.single_beam, automatic)?;
     let [_, deepest_m, far_km]: [f64; 3] =
         env.all("a step in m, a depth in m and a range in km")?;
-    env.blame(within("the greatest range of rays", "positive", far_km, far_km > 0.0))?;
-    let mut settings = TraceSettings::to_range(far_km * KM);
-    if deepest_m <= *water.section.sound_speed().depth_m().last().unwrap_or(&deepest_m) {
+    let far_m = far_km * KM;
+    let on_earth = (LEAST_BOX_M..=MOST_BOX_M).contains(&far_m);
+    env.blame(within("the range of the box in m", "from 1 to 1e8", far_m, on_earth))?;
+    let below = deepest_m > top_m;
+    env.blame(within("the depth of the box", "below the surface", deepest_m, below))?;
+    let mut settings = TraceSettings::to_range(far_m);
+    if deepest_m <= water.deepest_level_m {
         settings.deepest_m = deepest_m;
     }
     let adds_up = !matches!(run_type.run, Run::Rays | Run::Eigenrays);
@@ -132,12 +152,19 @@ fn sort(values: &mut [f64], notes: &mut Vec<String>, records: &Records) {
     }
 }
 
+/// Depth, speeds of compressional and shear waves, density and attenuations, before a
+/// file says anything. What a slash leaves out carries over from the line before: from
+/// the half-space above to the levels of the water, and to the half-space below.
+const MEDIUM: [f64; 6] = [0.0, 1500.0, 0.0, 1.0, 0.0, 0.0];
+
 /// The part of an `.env` file that describes the environment.
 struct Water {
     section: Section,
     /// Where the water begins and ends as the `.env` file has it.
     top_m: f64,
     depth_m: f64,
+    /// Depth of the last sound-speed level.
+    deepest_level_m: f64,
     /// Whether a single beam is asked for.
     single_beam: bool,
 }
@@ -171,7 +198,9 @@ impl Water {
         if profile_option == 'Q' {
             require(files, "ssp", env)?;
         }
-        let surface = SurfaceOrBottom::read(files, env, options.letter(1), unit, "trc")?;
+        let mut medium = MEDIUM;
+        let surface =
+            SurfaceOrBottom::read(files, env, options.letter(1), (unit, "trc"), &mut medium)?;
         let absorption = read_absorption(env, options.letter(3))?;
 
         let expected = "the number of mesh points, the roughness and the depth of the water";
@@ -179,9 +208,10 @@ impl Water {
         if roughness_m != 0.0 {
             note(notes, env, "the roughness is left out");
         }
-        let levels = Levels::read(env, depth_m, unit)?;
+        let levels = Levels::read(env, depth_m, unit, &mut medium, notes)?;
         let top_m = levels.depth_m[0];
         let attenuation = levels.attenuation(env)?;
+        let deepest_level_m = levels.depth_m[levels.depth_m.len() - 1];
         let (top_density, bottom_density) = levels.densities();
         let sound_speed = levels.field(files, env, profile_option)?;
 
@@ -197,7 +227,8 @@ impl Water {
             ' ' | '_' => (env.blame(Interface::flat(depth_m))?, None),
             other => return Err(env.unsupported("bathymetry (~, * or blank)", other)),
         };
-        let bottom = SurfaceOrBottom::read(files, env, options.letter(0), unit, "brc")?;
+        let bottom =
+            SurfaceOrBottom::read(files, env, options.letter(0), (unit, "brc"), &mut medium)?;
         let bottom = bottom.over(env, unit, bottom_density)?;
         let mut section = env.blame(Section::new(sound_speed, bathymetry, bottom))?;
         if let (Some(beyond), Boundary::Fluid(_) | Boundary::Elastic(_)) = (beyond, &section.bottom)
@@ -216,7 +247,7 @@ impl Water {
             }
         }
         env.blame(section.check())?;
-        Ok(Self { section, top_m, depth_m, single_beam })
+        Ok(Self { section, top_m, depth_m, deepest_level_m, single_beam })
     }
 }
 
@@ -232,18 +263,16 @@ impl SurfaceOrBottom {
         files: &CaseFiles,
         env: &mut Records,
         letter: char,
-        unit: AttenuationUnit,
-        table: &str,
+        (unit, table): (AttenuationUnit, &str),
+        medium: &mut [f64; 6],
     ) -> Result<Self, AcousticsError> {
         Ok(match letter {
             'V' => Self::Known(Boundary::Vacuum),
             'R' => Self::Known(Boundary::Rigid),
             'F' => Self::Known(Boundary::Table(read_reflection(files, table, env)?)),
             'A' => {
-                // Depth first; what a slash leaves out stays as it is.
-                let mut values = [0.0, 1500.0, 0.0, 1.0, 0.0, 0.0];
-                env.values("the properties of a half-space", &mut values)?;
-                let [_, properties @ ..] = values;
+                env.values("the properties of a half-space", medium)?;
+                let [_, properties @ ..] = *medium;
                 half_space(env, properties, unit, 1.0)?;
                 Self::HalfSpace(properties)
             }
@@ -310,28 +339,33 @@ impl Levels {
         env: &mut Records,
         water_depth_m: f64,
         unit: AttenuationUnit,
+        medium: &mut [f64; 6],
+        notes: &mut Vec<String>,
     ) -> Result<Self, AcousticsError> {
         /// The last level may be written with other digits than the depth.
         const SAME_DEPTH_M: f64 = 1e-3;
         let expected = "a depth and a sound speed";
         let [mut depth_m, mut speed_m_s, mut density, mut db_wavelength] =
             [const { Vec::new() }; 4];
-        // What a slash leaves out carries over from the level before.
-        let mut level = [f64::NAN, 1500.0, 0.0, 1.0, 0.0, 0.0];
         loop {
-            level[0] = f64::NAN;
-            env.values(expected, &mut level)?;
-            let [depth, speed, shear, rho, attenuation, _] = level;
+            medium[0] = f64::NAN;
+            let found = env.values(expected, medium)?;
+            let [depth, speed, shear, rho, attenuation, _] = *medium;
             if depth.is_nan() {
                 return Err(env.syntax(expected));
             }
             if depth_m.last().is_some_and(|above| depth <= *above) {
                 return Err(env.syntax("a depth below that of the level before"));
             }
-            if shear != 0.0 {
-                return Err(env.unsupported("water with a shear speed of", shear));
+            if shear != 0.0 && depth_m.is_empty() {
+                note(notes, env, "the shear speed of the water is left out");
             }
-            env.blame(within("a sound speed", "positive", speed, speed > 0.0))?;
+            if attenuation != 0.0 && depth_m.is_empty() && found < 5 {
+                note(notes, env, "the attenuation of the half-space above holds for the water too");
+            }
+            check_speed(env, speed)?;
+            let on_earth = depth.abs() <= MOST_DEPTH_M;
+            env.blame(within("a depth in m", "from -1e6 to 1e6", depth, on_earth))?;
             env.blame(within("a density of water", "positive", rho, rho > 0.0))?;
             depth_m.push(depth);
             speed_m_s.push(speed);

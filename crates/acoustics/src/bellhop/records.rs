@@ -1,4 +1,5 @@
 use crate::error::AcousticsError;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// No list in a file is longer: what asks for more is taken for damaged.
@@ -24,6 +25,8 @@ enum Item<'a> {
     Null(usize),
     /// A slash.
     End,
+    /// What makes no sense.
+    Nonsense,
 }
 
 impl<'a> Records<'a> {
@@ -49,11 +52,7 @@ impl<'a> Records<'a> {
     }
 
     /// The error that the line just read asks for something not supported.
-    pub(crate) fn unsupported(
-        &self,
-        feature: &'static str,
-        found: impl ToString,
-    ) -> AcousticsError {
+    pub(crate) fn unsupported(&self, feature: &'static str, found: impl Display) -> AcousticsError {
         AcousticsError::Unsupported {
             path: self.path.clone(),
             line: self.next,
@@ -123,7 +122,8 @@ impl<'a> Records<'a> {
             let mut rest = self.line(expected)?;
             while let Some(item) = next_item(&mut rest) {
                 let left = values.len() - count;
-                match item.ok_or_else(|| self.syntax(expected))? {
+                match item {
+                    Item::Nonsense => return Err(self.syntax(expected)),
                     Item::End => return Ok(count),
                     Item::Null(times) => count += times.min(left),
                     Item::Word(times, word) => {
@@ -255,16 +255,15 @@ fn without_comment(line: &str) -> &str {
     if quote.is_some() { line.split('!').next().unwrap_or_default() } else { line }
 }
 
-/// Takes the next item off a line; `Some(None)` where it makes no sense, and `None`
-/// at its end.
-fn next_item<'a>(rest: &mut &'a str) -> Option<Option<Item<'a>>> {
+/// Takes the next item off a line; `None` at its end.
+fn next_item<'a>(rest: &mut &'a str) -> Option<Item<'a>> {
     let text = rest.trim_start();
     if text.is_empty() {
         return None;
     }
     if text.starts_with('/') {
         *rest = "";
-        return Some(Some(Item::End));
+        return Some(Item::End);
     }
     let end = text.find(is_separator).unwrap_or(text.len());
     let (word, after) = text.split_at(end);
@@ -272,16 +271,16 @@ fn next_item<'a>(rest: &mut &'a str) -> Option<Option<Item<'a>>> {
     let after_blanks = after.trim_start();
     *rest = after_blanks.strip_prefix(',').unwrap_or(after_blanks);
     if word.is_empty() {
-        return Some(Some(Item::Null(1)));
+        return Some(Item::Null(1));
     }
-    let Some((times, word)) = word.split_once('*') else { return Some(Some(Item::Word(1, word))) };
+    let Some((times, word)) = word.split_once('*') else { return Some(Item::Word(1, word)) };
     // More than a list can hold is as good as endless.
     let digits = !times.is_empty() && times.bytes().all(|byte| byte.is_ascii_digit());
     let times = times.parse().unwrap_or(usize::MAX);
     Some(match word {
-        _ if !digits || times == 0 => None,
-        "" => Some(Item::Null(times)),
-        word => Some(Item::Word(times, word)),
+        _ if !digits || times == 0 => Item::Nonsense,
+        "" => Item::Null(times),
+        word => Item::Word(times, word),
     })
 }
 

@@ -62,7 +62,7 @@ pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, Ac
     };
     env.push(format!("{step_m} {box_m} {}  ! step, m; box, m and km", far_m / KM));
 
-    let mut texts = vec![("env", lines(env))];
+    let mut texts = vec![("env", lines(&env))];
     if law == 'Q' {
         texts.push(("ssp", sound_speed_text(case)));
     }
@@ -93,7 +93,7 @@ fn not_offered(what: &'static str) -> AcousticsError {
     AcousticsError::NotOffered { model: "BELLHOP", what }
 }
 
-fn lines(lines: Vec<String>) -> String {
+fn lines(lines: &[String]) -> String {
     lines.join("\n") + "\n"
 }
 
@@ -151,8 +151,11 @@ fn level_lines(case: &Case) -> impl Iterator<Item = String> {
     let field = case.section.sound_speed();
     let attenuation = case.section.attenuation.as_ref();
     field.depth_m().iter().zip(field.speed_m_s()).map(move |(depth, speed)| match attenuation {
-        None => format!("{depth} {speed} /"),
-        Some(profile) => format!("{depth} {speed} 0.0 1.0 {} /", profile.at_db_wavelength(*depth)),
+        // All values: those of a half-space above would carry over.
+        None => format!("{depth} {speed} 0.0 1.0 0.0 0.0 /"),
+        Some(profile) => {
+            format!("{depth} {speed} 0.0 1.0 {} 0.0 /", profile.at_db_wavelength(*depth))
+        }
     })
 }
 
@@ -206,7 +209,7 @@ fn interface_text(interface: &Interface) -> String {
     };
     let nodes = interface.range_m().iter().zip(interface.node_depth_m());
     let nodes = nodes.map(|(range, depth)| format!("{} {depth}", range / KM));
-    format!("'{letter}S'\n{}", table_text(nodes))
+    format!("'{letter}'\n{}", table_text(nodes))
 }
 
 fn table_text(entries: impl ExactSizeIterator<Item = String>) -> String {

@@ -93,17 +93,19 @@ impl Interface {
         if self.shape == InterfaceShape::Straight || after == 0 || after == self.range_m.len() {
             return None;
         }
-        // Angle below the horizontal of the piece that ends at a node.
-        let piece = |node: usize| {
-            let level = node == 0 || node == self.range_m.len();
+        // Slope of the piece that ends at a node; level beyond the first and the last.
+        let slope = |node: usize| {
+            let beyond = node == 0 || node == self.range_m.len();
             let rise = |v: &[f64]| v[node] - v[node - 1];
-            if level { 0.0 } else { (rise(&self.depth_m) / rise(&self.range_m)).atan() }
+            if beyond { 0.0 } else { rise(&self.depth_m) / rise(&self.range_m) }
         };
-        let tangent = |node: usize| 0.5 * (piece(node) + piece(node + 1));
+        let tangent = |node: usize| 0.5 * (slope(node).atan() + slope(node + 1).atan());
         let width = self.range_m[after] - self.range_m[after - 1];
         let turning_rad_m = (tangent(after) - tangent(after - 1)) / width;
         let angle_rad = tangent(after - 1) + turning_rad_m * (range_m - self.range_m[after - 1]);
-        Some(Bend { angle_rad, turning_rad_m })
+        let secant = slope(after).hypot(1.0);
+        let curvature_m = (slope(after + 1) - slope(after)) / (width * secant.powi(3));
+        Some(Bend { angle_rad, turning_rad_m, curvature_m })
     }
 
     /// The least depth, metres.
@@ -124,6 +126,10 @@ pub(crate) struct Bend {
     pub angle_rad: f64,
     /// Change of the angle per metre of range.
     pub turning_rad_m: f64,
+    /// Curvature that focuses sound, 1/m, positive where the interface bends down. As in
+    /// BELLHOP it is that from the straight piece to the next one: half a piece ahead of
+    /// how the angle turns, and the same where the curvature is steady.
+    pub curvature_m: f64,
 }
 
 #[cfg(test)]

@@ -4,51 +4,34 @@
 /// ascending abscissae, whose first two pieces are one cubic, and its last two
 /// (not-a-knot). Through three points it is a parabola, through two a line.
 pub(super) fn spline_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let last = x.len() - 1;
-    let h: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let secant: Vec<f64> =
-        y.windows(2).zip(&h).map(|(pair, width)| (pair[1] - pair[0]) / width).collect();
-    match last {
-        1 => return vec![secant[0]; 2],
-        2 => {
-            let bend = (secant[1] - secant[0]) / (h[0] + h[1]);
-            return vec![secant[0] - bend * h[0], secant[0] + bend * h[0], secant[1] + bend * h[1]];
-        }
-        _ => {}
+    let (h, secant) = pieces(x, y);
+    let last = h.len();
+    if last == 1 {
+        return vec![secant[0]; 2];
     }
-    // Rows of a tridiagonal system: lower, diagonal, upper, right-hand side.
-    let mut rows = Vec::with_capacity(x.len());
+    if last == 2 {
+        let bend = (secant[1] - secant[0]) / (h[0] + h[1]);
+        let inner = secant[0] + bend * h[0];
+        return vec![secant[0] - bend * h[0], inner, secant[1] + bend * h[1]];
+    }
     let end = |h0: f64, h1: f64, s0: f64, s1: f64| {
-        ((h0 + 2.0 * (h0 + h1)) * h1 * s0 + h0 * h0 * s1) / (h0 + h1)
+        let right = ((h0 + 2.0 * (h0 + h1)) * h1 * s0 + h0 * h0 * s1) / (h0 + h1);
+        (h1, h0 + h1, right)
     };
-    rows.push([0.0, h[1], h[0] + h[1], end(h[0], h[1], secant[0], secant[1])]);
-    for i in 1..last {
-        let right = 3.0 * (h[i] * secant[i - 1] + h[i - 1] * secant[i]);
-        rows.push([h[i], 2.0 * (h[i - 1] + h[i]), h[i - 1], right]);
-    }
-    let (h0, h1) = (h[last - 1], h[last - 2]);
-    rows.push([h0 + h1, h1, 0.0, end(h0, h1, secant[last - 1], secant[last - 2])]);
-
-    for i in 1..=last {
-        let factor = rows[i][0] / rows[i - 1][1];
-        rows[i][1] -= factor * rows[i - 1][2];
-        rows[i][3] -= factor * rows[i - 1][3];
-    }
-    let mut slopes = vec![rows[last][3] / rows[last][1]; x.len()];
-    for i in (0..last).rev() {
-        slopes[i] = (rows[i][3] - rows[i][2] * slopes[i + 1]) / rows[i][1];
-    }
-    slopes
+    let (diagonal, upper, right) = end(h[0], h[1], secant[0], secant[1]);
+    let first = [0.0, diagonal, upper, right];
+    let (diagonal, lower, right) =
+        end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]);
+    spline(&h, &secant, first, [lower, diagonal, 0.0, right])
 }
 
-/// Slopes of the piecewise cubic that is monotone wherever the points are: Fritsch &
-/// Butland's weighted harmonic means of the neighbouring secants (1984,
-/// doi:10.1137/0905021), and three-point slopes at the ends, limited likewise.
+/// Slopes of a piecewise cubic that is monotone wherever the points are: those of the
+/// spline with the three-point slopes at its ends, brought into the region in which a
+/// cubic cannot overshoot (Fritsch & Carlson 1980, doi:10.1137/0717021): nil where the
+/// points turn, and at most three times the secants on both sides.
 pub(super) fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let last = x.len() - 1;
-    let h: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let secant: Vec<f64> =
-        y.windows(2).zip(&h).map(|(pair, width)| (pair[1] - pair[0]) / width).collect();
+    let (h, secant) = pieces(x, y);
+    let last = h.len();
     if last == 1 {
         return vec![secant[0]; 2];
     }
@@ -62,17 +45,50 @@ pub(super) fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
             slope
         }
     };
-    let inner = (1..last).map(|i| {
-        let (s0, s1) = (secant[i - 1], secant[i]);
-        if s0 * s1 <= 0.0 {
-            return 0.0;
-        }
-        let (w0, w1) = (2.0 * h[i] + h[i - 1], h[i] + 2.0 * h[i - 1]);
-        (w0 + w1) / (w0 / s0 + w1 / s1)
-    });
-    let mut slopes = vec![end(h[0], h[1], secant[0], secant[1])];
-    slopes.extend(inner);
-    slopes.push(end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]));
+    let first = end(h[0], h[1], secant[0], secant[1]);
+    let final_slope = end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]);
+    let mut slopes = spline(&h, &secant, [0.0, 1.0, 0.0, first], [0.0, 1.0, 0.0, final_slope]);
+    for (slope, sides) in slopes[1..].iter_mut().zip(secant.windows(2)) {
+        let most = 3.0 * sides[0].abs().min(sides[1].abs());
+        let turns = sides[0] * sides[1] <= 0.0 || *slope * sides[0] <= 0.0;
+        *slope = if turns { 0.0 } else { slope.clamp(-most, most) };
+    }
+    slopes
+}
+
+/// Widths of the pieces between points, and the slopes of their secants.
+fn pieces(x: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let widths: Vec<f64> = x.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let secants =
+        y.windows(2).zip(&widths).map(|(pair, width)| (pair[1] - pair[0]) / width).collect();
+    (widths, secants)
+}
+
+/// Slopes of a spline from the equations of its ends: lower, diagonal and upper
+/// coefficient, and right-hand side. Second derivatives are equal on both sides of the
+/// points between.
+fn spline(h: &[f64], secant: &[f64], first: [f64; 4], last: [f64; 4]) -> Vec<f64> {
+    let mut rows = vec![first];
+    for i in 1..h.len() {
+        let right = 3.0 * (h[i] * secant[i - 1] + h[i - 1] * secant[i]);
+        rows.push([h[i], 2.0 * (h[i - 1] + h[i]), h[i - 1], right]);
+    }
+    rows.push(last);
+    for i in 1..rows.len() {
+        let factor = rows[i][0] / rows[i - 1][1];
+        rows[i][1] -= factor * rows[i - 1][2];
+        rows[i][3] -= factor * rows[i - 1][3];
+    }
+    let mut below = 0.0;
+    let mut slopes: Vec<f64> = rows
+        .iter()
+        .rev()
+        .map(|row| {
+            below = (row[3] - row[2] * below) / row[1];
+            below
+        })
+        .collect();
+    slopes.reverse();
     slopes
 }
 
@@ -92,6 +108,21 @@ mod tests {
         let slopes = spline_slopes(&x[..3], &[parabola(0.0), parabola(1.0), parabola(2.5)]);
         for (slope, exact) in slopes.iter().zip([3.0, 1.0, -2.0]) {
             assert!((slope - exact).abs() < 1e-12);
+        }
+    }
+
+    /// The slopes that BELLHOP's rays show at the levels of a profile (option P), from
+    /// differences along them.
+    #[test]
+    fn monotone_slopes_are_bellhops() {
+        let depth = [0.0, 100.0, 250.0, 400.0, 700.0, 900.0, 1300.0, 1700.0, 2000.0];
+        let speed = [1530.0, 1522.0, 1508.0, 1500.0, 1490.0, 1495.0, 1496.0, 1503.0, 1512.0];
+        let bellhop = [
+            -0.074_667, -0.090_387, -0.076_066, -0.045_350, 0.0, 0.0075, 0.002_293, 0.026_371,
+            0.035_357,
+        ];
+        for (slope, bellhop) in monotone_slopes(&depth, &speed).iter().zip(bellhop) {
+            assert!((slope - bellhop).abs() < 2e-6, "{slope} {bellhop}");
         }
     }
 

@@ -78,7 +78,7 @@ pub struct RangeProfiler<'a> {
 impl<'a> RangeProfiler<'a> {
     /// Prepares a section.
     pub fn new(section: &'a Section, settings: &TraceSettings) -> Self {
-        let medium = Medium::new(section, &MediumLimits::from(settings));
+        let medium = Medium::new(section, &MediumLimits::from(settings)).coarse();
         Self { section, medium, settings: *settings }
     }
 

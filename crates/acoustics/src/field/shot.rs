@@ -12,7 +12,7 @@ use crate::complex::Complex;
 use crate::environment::Section;
 use crate::ray::{Launch, Medium, Ray, Tracer, record};
 use rayon::prelude::*;
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// Into how many chunks a fan is divided. Their sums are added up in the order of the
 /// fan, so that results do not depend on the number of threads.
@@ -163,14 +163,15 @@ impl Shot<'_> {
         SQRT_2 * (vertical * source.depth_m).sin().abs()
     }
 
-    /// Spreading in cylinders around a point source, as a factor of amplitude.
+    /// Spreading in cylinders around a point source, as a factor of amplitude. That of a
+    /// line does not depend on range, but on what strength it is given: BELLHOP's.
     fn spreading(&self, receiver: usize) -> f64 {
         match self.geometry {
             SourceGeometry::Point => {
                 let range_m = self.receivers.range_of_m(receiver).abs();
                 if range_m > 0.0 { range_m.sqrt().recip() } else { 0.0 }
             }
-            SourceGeometry::Line => 1.0,
+            SourceGeometry::Line => 4.0 * PI.sqrt(),
         }
     }
 }

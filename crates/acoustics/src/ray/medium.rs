@@ -10,6 +10,8 @@ pub(crate) struct Medium {
     pub layers: Vec<Layer>,
     /// [column, layer]
     pub cells: Vec<Cell>,
+    /// Whether [`Medium::coarse`].
+    pub is_coarse: bool,
 }
 
 /// An interval of range, over which surface and sea floor are straight.
@@ -122,7 +124,16 @@ impl Medium {
         let columns =
             nodes.windows(2).map(|pair| column(section, &layers, pair[0], pair[1])).collect();
         let cells = cells(section, &nodes, &levels, &layers);
-        Self { columns, layers, cells }
+        Self { columns, layers, cells, is_coarse: false }
+    }
+
+    /// The same cells as the batch kernel sees them: layers are chords, and G is taken
+    /// half-way along a step as if it were straight.
+    pub(crate) fn coarse(mut self) -> Self {
+        for cell in &mut self.cells {
+            (cell.bend, cell.bow) = (0.0, 0.0);
+        }
+        Self { is_coarse: true, ..self }
     }
 
     pub(crate) fn cell(&self, column: usize, layer: usize) -> &Cell {

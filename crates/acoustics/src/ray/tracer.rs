@@ -164,9 +164,10 @@ impl Tracer<'_> {
     fn segment(&self, ray: &State) -> (Segment, Meeting) {
         let cell = self.medium.cell(ray.column, ray.layer);
         let layer = self.medium.layers[ray.layer];
-        let mut gradient = cell.gradient_at(ray.local);
+        let start = if self.medium.is_coarse { self.midway(ray) } else { ray.local };
+        let mut gradient = cell.gradient_at(start);
         let (mut sigma, mut meeting) = self.next_meeting(ray, gradient);
-        if !cell.is_uniform() {
+        if !(self.medium.is_coarse || cell.is_uniform()) {
             // G is taken where the ray is on average.
             let mean = ray.slowness * (0.5 * sigma) + gradient * (sigma * sigma / 6.0);
             gradient = cell.gradient_at(ray.local + mean);
@@ -183,6 +184,20 @@ impl Tracer<'_> {
             burden: ray.burden,
         };
         (segment, meeting)
+    }
+
+    /// About the middle of the coming segment, if it were straight.
+    fn midway(&self, ray: &State) -> Pair {
+        let (column, layer) = (self.medium.columns[ray.column], self.medium.layers[ray.layer]);
+        let until = |half: f64, place: f64, speed: f64| {
+            (half - place.copysign(place * speed)).max(0.0) / speed.abs().max(1e-30)
+        };
+        let sigma = until(column.half_width, ray.local.x, ray.slowness.x).min(until(
+            layer.half_height,
+            ray.local.z,
+            ray.slowness.z,
+        ));
+        ray.local + ray.slowness * (0.5 * sigma)
     }
 
     #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
@@ -226,7 +241,8 @@ impl Tracer<'_> {
     }
 
     /// Moves the ray to the end of its segment, exactly onto what it meets, and
-    /// gives the vertical slowness the value that |p| = 1/c demands there.
+    /// gives its slowness the modulus 1/c there (in a coarse medium by its vertical part,
+    /// as in the batch kernel).
     #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
     #[inline(always)]
     fn advance(&self, ray: &mut State, segment: &Segment, meeting: Meeting) {
@@ -258,9 +274,14 @@ impl Tracer<'_> {
             }
         }
         let index_squared = cell.squared_slowness(ray.local);
-        let rescale = (index_squared / ray.slowness.dot(ray.slowness)).sqrt();
-        ray.slowness = ray.slowness * rescale;
         let least = LEAST_SLOPE * ray.slowness.x.abs();
+        if self.medium.is_coarse {
+            let vertical_squared = index_squared - ray.slowness.x * ray.slowness.x;
+            ray.slowness.z = vertical_squared.max(0.0).sqrt();
+        } else {
+            let rescale = (index_squared / ray.slowness.dot(ray.slowness)).sqrt();
+            ray.slowness = ray.slowness * rescale;
+        }
         ray.slowness.z = ray.slowness.z.abs().max(least).copysign(downward);
     }
 
@@ -345,9 +366,7 @@ impl Tracer<'_> {
         if let Some(bend) = wall.bend {
             let tangent = Pair::new(normal.z, -normal.x);
             let slip = ray.offset.dot(tangent) - along * ray.offset.dot(normal) / across;
-            // The tangent turns by dφ/dx; the straight piece is longer than its dx.
-            let turning = -bend.turning_rad_m * wall.normal.z.abs();
-            let kick = -2.0 * turning * side * slip;
+            let kick = 2.0 * bend.curvature_m * side * slip;
             offset_slowness = offset_slowness + (normal * along + tangent * across) * kick;
         }
         ray.offset_slowness = offset_slowness;

@@ -3,5 +3,7 @@
 mod analytic;
 mod batch;
 mod bellhop_files;
+mod executable;
+mod mutations;
 mod properties;
 mod reference;

@@ -10,7 +10,7 @@ use sonarfleet_acoustics::bellhop::{
     CaseFiles, Executable, Reading, ShadeFile, abandon_all, fatal_text, output_file, print_text,
 };
 use sonarfleet_acoustics::field::Field;
-use sonarfleet_acoustics::model::{Native, Output, PropagationModel};
+use sonarfleet_acoustics::model::{Native, Output, PropagationModel, Run};
 use sonarfleet_ocean::io::replace_file;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -51,6 +51,10 @@ fn solve(args: &BellhopArgs, target: &Target, manner: Manner) -> Result<()> {
             eprintln!("note: {note}");
         }
     }
+    ensure!(
+        args.compare.is_none() || matches!(case.run, Run::Field(_)),
+        "--compare is for fields (.shd), but the run type of the case asks for others"
+    );
     let model = model(args)?;
     let bar = Progress::new(&format!("{} model", model.name()), !manner.talkative());
     let started = Instant::now();
@@ -111,7 +115,11 @@ fn model(args: &BellhopArgs) -> Result<Box<dyn PropagationModel>> {
                 abandon_all();
                 std::process::exit(130);
             })?;
-            Box::new(executable.with_timeout(Duration::try_from_secs_f64(args.timeout).unwrap_or(Duration::MAX)))
+            Box::new(
+                executable.with_timeout(
+                    Duration::try_from_secs_f64(args.timeout).unwrap_or(Duration::MAX),
+                ),
+            )
         }
     })
 }
@@ -129,7 +137,7 @@ struct Differences {
 const FAINTEST_DB: f64 = 300.0;
 
 fn compare(output: &Output, other: &Path) -> Result<Differences> {
-    let Output::Fields(ours) = output else { bail!("--compare is for fields (.shd)") };
+    let Output::Fields(ours) = output else { bail!("the model gave no fields") };
     let bytes = std::fs::read(other).with_context(|| format!("cannot read {}", other.display()))?;
     let theirs = ShadeFile::from_bytes(other, &bytes)?.fields;
     let shapes = |fields: &[Field]| fields.iter().map(|f| f.pressure.len()).collect::<Vec<_>>();

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod bad_input;
+mod bellhop;
 mod closed_loop;
 mod links;
 mod loss_tables;

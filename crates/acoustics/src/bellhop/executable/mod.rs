@@ -29,7 +29,7 @@ impl Executable {
     pub const VARIABLE: &'static str = "SONARFLEET_BELLHOP";
 
     /// Runs take this long at most, unless told otherwise.
-    pub const TIMEOUT: Duration = Duration::from_secs(3600);
+    pub const TIMEOUT: Duration = Duration::from_hours(1);
 
     /// Finds the program: that named by `$SONARFLEET_BELLHOP`, else `bellhop.exe`, then
     /// `bellhop`, in the directories of `$PATH`.
@@ -37,7 +37,8 @@ impl Executable {
     /// # Errors
     /// If there is none; the error says what was looked for, and where.
     pub fn find() -> Result<Self, AcousticsError> {
-        search::find(std::env::var_os(Self::VARIABLE), std::env::var_os("PATH")).map(Self::new)
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        search::find(std::env::var_os(Self::VARIABLE), &path).map(Self::new)
     }
 
     /// The program at a path.

@@ -9,7 +9,7 @@ const PREFIX: &str = "sonarfleet-bellhop-";
 
 /// Directories of dead processes are left alone for so long: they may be about to be
 /// locked.
-const SETTLING: Duration = Duration::from_secs(60);
+const SETTLING: Duration = Duration::from_mins(1);
 
 /// A directory that goes when this does. What killed processes leave behind goes when
 /// the next process makes one: a lock beside each directory, which the system releases

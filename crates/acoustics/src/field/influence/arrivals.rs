@@ -1,26 +1,21 @@
 use super::{Contribution, ContributionSink};
 use crate::field::Arrival;
 
-/// Neighbouring beams bring the same arrival to a receiver if their phases there differ
-/// by less than this, radians.
-const SAME_PHASE_RAD: f64 = 0.5;
+/// Contributions whose phases differ by less than this, radians, are one arrival.
+const SAME_PHASE_RAD: f64 = 0.05;
 
-/// Collects arrivals: what consecutive beams bring to a receiver by the same number of
-/// bounces and caustics, and almost in phase, is one.
+/// Collects arrivals: what beams bring to a receiver one after another, by the same number
+/// of bounces and caustics and almost in phase, is one.
 pub(crate) struct ArrivalSink {
     angular_frequency: f64,
     at: Vec<Vec<Cluster>>,
 }
 
-/// What a run of consecutive beams brings.
+/// What beams bring together.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
-    first_beam: usize,
-    last_beam: usize,
-    first_delay_s: f64,
-    last_delay_s: f64,
-    /// Its sums weigh by amplitude.
     amplitude: f64,
+    /// Delays, and what follows, are weighed by amplitudes.
     delay_sum: f64,
     absorption_sum: f64,
     launch_angle_sum: f64,
@@ -35,10 +30,6 @@ impl Cluster {
         let amplitude = c.amplitude * c.weight;
         let arrival_angle = c.slowness.z.atan2(c.slowness.x);
         Self {
-            first_beam: c.beam.index,
-            last_beam: c.beam.index,
-            first_delay_s: c.time_s,
-            last_delay_s: c.time_s,
             amplitude,
             delay_sum: amplitude * c.time_s,
             absorption_sum: amplitude * c.absorption_nepers,
@@ -50,18 +41,15 @@ impl Cluster {
         }
     }
 
-    fn is_followed_by(&self, next: &Self, angular_frequency: f64) -> bool {
-        let apart = angular_frequency * (next.first_delay_s - self.last_delay_s);
-        next.first_beam <= self.last_beam + 1
-            && apart.abs() < SAME_PHASE_RAD
+    fn is_in_phase_with(&self, next: &Self, angular_frequency: f64) -> bool {
+        let later_s = next.delay_sum / next.amplitude - self.delay_sum / self.amplitude;
+        (angular_frequency * later_s).abs() < SAME_PHASE_RAD
             && (next.phase_rad - self.phase_rad).abs() < SAME_PHASE_RAD
             && (next.surface_bounces, next.bottom_bounces)
                 == (self.surface_bounces, self.bottom_bounces)
     }
 
     fn absorb(&mut self, next: &Self) {
-        self.last_beam = next.last_beam;
-        self.last_delay_s = next.last_delay_s;
         self.amplitude += next.amplitude;
         self.delay_sum += next.delay_sum;
         self.absorption_sum += next.absorption_sum;
@@ -92,7 +80,7 @@ impl ArrivalSink {
     fn add_cluster(&mut self, receiver: usize, next: &Cluster) {
         let frequency = self.angular_frequency;
         let arrivals = &mut self.at[receiver];
-        match arrivals.iter_mut().rev().find(|last| last.is_followed_by(next, frequency)) {
+        match arrivals.last_mut().filter(|last| last.is_in_phase_with(next, frequency)) {
             Some(last) => last.absorb(next),
             None => arrivals.push(*next),
         }
@@ -102,9 +90,8 @@ impl ArrivalSink {
     /// amplitude that is still missing at a receiver.
     pub(crate) fn into_arrivals(self, spreading: impl Fn(usize) -> f64) -> Vec<Vec<Arrival>> {
         let sorted = |(receiver, clusters): (usize, Vec<Cluster>)| {
-            let heard = clusters.iter().filter(|cluster| cluster.amplitude > 0.0);
             let mut arrivals: Vec<Arrival> =
-                heard.map(|cluster| cluster.arrival(spreading(receiver))).collect();
+                clusters.iter().map(|cluster| cluster.arrival(spreading(receiver))).collect();
             arrivals.sort_by(|a, b| a.delay_s.total_cmp(&b.delay_s));
             arrivals
         };
@@ -114,7 +101,9 @@ impl ArrivalSink {
 
 impl ContributionSink for ArrivalSink {
     fn add(&mut self, receiver: usize, contribution: &Contribution) {
-        self.add_cluster(receiver, &Cluster::new(contribution));
+        if contribution.amplitude * contribution.weight > 0.0 {
+            self.add_cluster(receiver, &Cluster::new(contribution));
+        }
     }
 
     fn join(&mut self, next: Self) {

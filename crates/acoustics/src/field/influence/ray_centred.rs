@@ -9,17 +9,17 @@ impl<S: ContributionSink> Influence<'_, S> {
     /// Deposits on the receivers over which a segment sweeps its normal.
     pub(super) fn sweep_across(&mut self, segment: &Segment) {
         let ends = [0.0, segment.sigma].map(|sigma| Place::new(self.medley, segment, sigma));
-        let reach =
-            MARGIN * ends.iter().map(|end| self.beam.reach(self.medley, end)).fold(0.0, f64::max);
-        let (x, z) =
-            (ends.each_ref().map(|end| end.position.x), ends.each_ref().map(|end| end.position.z));
-        let steepest = ends.iter().map(|end| end.along.z.abs()).fold(0.0, f64::max);
-        let sideways = reach * steepest;
-        let columns = self.stations.columns(x[0].min(x[1]) - sideways, x[0].max(x[1]) + sideways);
-        for column in columns {
+        let [first, last] = &ends;
+        let widest = self.beam.reach(self.medley, first).max(self.beam.reach(self.medley, last));
+        // The segment itself departs from its chord, at a vertex in particular.
+        let bend = segment.gradient.dot(segment.gradient).sqrt();
+        let reach = MARGIN * widest + bend * segment.sigma * segment.sigma / 8.0;
+        let (x0, x1) = (first.position.x, last.position.x);
+        let (z0, z1) = (first.position.z, last.position.z);
+        let sideways = reach * first.along.z.abs().max(last.along.z.abs());
+        for column in self.stations.columns(x0.min(x1) - sideways, x0.max(x1) + sideways) {
             let range = self.stations.range(column);
-            let depths =
-                self.stations.between(column, z[0].min(z[1]) - reach, z[0].max(z[1]) + reach);
+            let depths = self.stations.between(column, z0.min(z1) - reach, z0.max(z1) + reach);
             for index in depths {
                 let receiver = Pair::new(range, self.stations.depth(index));
                 let Some(sigma) = foot(segment, receiver) else { continue };
