@@ -11,6 +11,7 @@ netCDF4, h5netcdf and h5py.
 import csv
 import io
 import json
+import os
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -27,7 +28,10 @@ scenario = Path(__file__).resolve().parent.parent / "scenarios" / "small.toml"
 
 def sonarfleet(*arguments):
     command = [program, *map(str, arguments)]
-    return subprocess.run(command, cwd=directory, check=True, capture_output=True, text=True).stdout
+    environment = {**os.environ, "SONARFLEET_CACHE": str(directory / "cache")}
+    return subprocess.run(
+        command, cwd=directory, env=environment, check=True, capture_output=True, text=True
+    ).stdout
 
 
 def check(what, holds):

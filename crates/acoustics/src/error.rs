@@ -43,6 +43,30 @@ pub enum AcousticsError {
         /// Depth of the sea floor at its deepest, metres.
         deepest_floor_m: f64,
     },
+    /// The surface rises above the sound-speed levels.
+    #[error(
+        "the surface lies at {surface_m} m at the range of {range_m} m, above the first sound-speed level at {first_level_m} m"
+    )]
+    SurfaceAboveLevels {
+        /// Where, metres.
+        range_m: f64,
+        /// Depth of the surface there, metres.
+        surface_m: f64,
+        /// Depth of the first level, metres.
+        first_level_m: f64,
+    },
+    /// The surface lies below the sea floor.
+    #[error(
+        "there is no water at the range of {range_m} m: the surface lies at {surface_m} m, the sea floor at {floor_m} m"
+    )]
+    NoWater {
+        /// Where, metres.
+        range_m: f64,
+        /// Depth of the surface there, metres.
+        surface_m: f64,
+        /// Depth of the sea floor there, metres.
+        floor_m: f64,
+    },
     /// The source is not in the water.
     #[error(
         "the source at {source_depth_m} m is not in the water, which reaches from {surface_m} m to {floor_m} m there"
@@ -69,6 +93,58 @@ pub enum AcousticsError {
         /// The file.
         path: PathBuf,
         /// What the system says.
+        reason: String,
+    },
+    /// A file cannot be written.
+    #[error("{}: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A file refers to another, which is not there.
+    #[error("{}, line {line}: needs {}, which is not there", path.display(), needed.display())]
+    MissingCompanion {
+        /// The file that refers.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The file referred to.
+        needed: PathBuf,
+    },
+    /// What a file says makes no sense.
+    #[error("{}, line {line}: {problem}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Why.
+        problem: Box<AcousticsError>,
+    },
+    /// A binary file does not hold what belongs there.
+    #[error("{}, byte {byte}: expected {expected}", path.display())]
+    Binary {
+        /// The file.
+        path: PathBuf,
+        /// Where, from 0.
+        byte: usize,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// No external program was found.
+    #[error("no BELLHOP program found: {searched}. The native model needs no external program")]
+    NoExecutable {
+        /// What was looked for, and where.
+        searched: String,
+    },
+    /// An external program failed.
+    #[error("{}: {reason}", program.display())]
+    ExternalProgram {
+        /// The program.
+        program: PathBuf,
+        /// What it did, and what it said.
         reason: String,
     },
     /// A line of a file does not hold what belongs there.

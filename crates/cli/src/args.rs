@@ -1,6 +1,7 @@
 //! What can be typed: the command line, as clap parses it.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sonarfleet_acoustics::environment::Seabed;
 use std::path::PathBuf;
 
 /// Where a fleet of listening underwater vehicles should be, and how it gets there.
@@ -53,6 +54,18 @@ pub(crate) enum Command {
     Bench(BenchCommand),
 }
 
+/// Whether computed transmission loss is kept.
+#[derive(Debug, Args)]
+pub(crate) struct CacheArgs {
+    /// Neither read nor keep computed transmission loss
+    #[arg(
+        long,
+        help = "Neither read nor keep computed transmission loss [kept in: $SONARFLEET_CACHE, \
+            else $XDG_CACHE_HOME/sonarfleet, else ~/.cache/sonarfleet]"
+    )]
+    pub(crate) no_cache: bool,
+}
+
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 #[command(
@@ -71,6 +84,8 @@ pub(crate) struct RunArgs {
     /// Seed of all randomness [default: the scenario's]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 /// Arguments of `init`.
@@ -83,9 +98,30 @@ pub(crate) struct InitArgs {
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
+#[command(after_help = sea_floors())]
 pub(crate) struct CheckArgs {
     /// Scenario [default: the embedded one]
     pub(crate) scenario: Option<PathBuf>,
+}
+
+/// The sea floors that a scenario may name, with what they are and where from.
+fn sea_floors() -> String {
+    let lines = Seabed::ALL.map(|seabed| {
+        let floor = seabed.half_space();
+        format!(
+            "  {:<10} {:>4} m/s  {:<5} g/cm³  {:<4} dB per wavelength  {}",
+            seabed.name(),
+            floor.speed_m_s,
+            floor.density_ratio,
+            floor.attenuation_db_wavelength,
+            seabed.source(),
+        )
+    });
+    format!(
+        "Sea floors by name, `seabed.sediment` (speed, density, attenuation):\n{}\n\
+         COA: Jensen et al., Computational Ocean Acoustics, doi:10.1007/978-1-4419-8678-8",
+        lines.join("\n")
+    )
 }
 
 /// `ocean …`.
@@ -135,12 +171,20 @@ pub(crate) enum Quality {
     Fine,
 }
 
+/// What a table is for.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum LossUse {
+    Detection,
+    Communication,
+}
+
 /// Arguments of `tl`.
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     after_help = "Examples:\n  sonarfleet tl --output tl.nc\n  \
+        sonarfleet tl mission.toml --use communication --output links.nc\n  \
         sonarfleet tl mission.toml --epoch 2 --shard 1/4 --output part1.nc\n  \
         sonarfleet tl merge part1.nc part2.nc part3.nc part4.nc --output tl.nc"
 )]
@@ -153,12 +197,17 @@ pub(crate) struct TlArgs {
     /// Preset of beams and bearings [default: the scenario's]
     #[arg(long, value_enum)]
     pub(crate) quality: Option<Quality>,
+    /// What the table is for: at the sonar's frequency or at the modems'
+    #[arg(long = "use", value_enum, default_value = "detection")]
+    pub(crate) purpose: LossUse,
     /// Epoch whose ocean is used, from 0
     #[arg(long, default_value_t = 0, value_name = "K")]
     pub(crate) epoch: usize,
     /// Compute only the i-th of n parts of the sources, e.g. 2/8
     #[arg(long, value_name = "I/N", value_parser = parse_shard)]
     pub(crate) shard: Option<Shard>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     #[command(subcommand)]
     pub(crate) command: Option<TlCommand>,
 }
@@ -222,6 +271,11 @@ pub(crate) struct PlaceArgs {
     /// Transmission-loss table to use instead of computing one (scenario only)
     #[arg(long, value_name = "FILE")]
     pub(crate) loss: Option<PathBuf>,
+    /// The same for the links between vehicles (scenario only)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) communication_loss: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 fn positive(text: &str) -> Result<f64, String> {

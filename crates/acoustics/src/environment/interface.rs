@@ -86,10 +86,44 @@ impl Interface {
         self.depth_m[after - 1] + weight * (self.depth_m[after] - self.depth_m[after - 1])
     }
 
+    /// How the normal turns over the straight piece that holds a range; none where
+    /// the interface does not turn between nodes.
+    pub(crate) fn bend_at(&self, range_m: f64) -> Option<Bend> {
+        let after = self.range_m.partition_point(|&node| node <= range_m);
+        if self.shape == InterfaceShape::Straight || after == 0 || after == self.range_m.len() {
+            return None;
+        }
+        // Angle below the horizontal of the piece that ends at a node.
+        let piece = |node: usize| {
+            let level = node == 0 || node == self.range_m.len();
+            let rise = |v: &[f64]| v[node] - v[node - 1];
+            if level { 0.0 } else { (rise(&self.depth_m) / rise(&self.range_m)).atan() }
+        };
+        let tangent = |node: usize| 0.5 * (piece(node) + piece(node + 1));
+        let width = self.range_m[after] - self.range_m[after - 1];
+        let turning_rad_m = (tangent(after) - tangent(after - 1)) / width;
+        let angle_rad = tangent(after - 1) + turning_rad_m * (range_m - self.range_m[after - 1]);
+        Some(Bend { angle_rad, turning_rad_m })
+    }
+
+    /// The least depth, metres.
+    pub fn shallowest_m(&self) -> f64 {
+        self.depth_m.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// The greatest depth, metres.
     pub fn deepest_m(&self) -> f64 {
         self.depth_m.iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// The direction of a smooth interface at a place, and how it turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bend {
+    /// Angle of its tangent below the horizontal.
+    pub angle_rad: f64,
+    /// Change of the angle per metre of range.
+    pub turning_rad_m: f64,
 }
 
 #[cfg(test)]
@@ -103,9 +137,23 @@ mod tests {
         assert!((floor.depth_at_m(250.0) - 150.0).abs() < 1e-12);
         assert!((floor.depth_at_m(1000.0) - 300.0).abs() < 1e-12);
         assert!((floor.depth_at_m(1e9) - 300.0).abs() < 1e-12);
+        assert!(floor.bend_at(250.0).is_none());
         assert!(matches!(
             Interface::new(vec![0.0, 0.0], vec![1.0, 1.0]),
             Err(AcousticsError::NotAscending { index: 1, .. })
         ));
+    }
+
+    #[test]
+    fn a_curvilinear_floor_turns_steadily_from_node_to_node() {
+        let floor = Interface::new(vec![0.0, 10.0, 20.0], vec![0.0, 10.0, 20.0]).unwrap();
+        let floor = floor.with_shape(InterfaceShape::Curvilinear);
+        let slope = std::f64::consts::FRAC_PI_4;
+        // Level before the first node, a slope of 45° on both sides of the second.
+        assert!((floor.bend_at(0.0).unwrap().angle_rad - 0.5 * slope).abs() < 1e-12);
+        assert!((floor.bend_at(5.0).unwrap().angle_rad - 0.75 * slope).abs() < 1e-12);
+        assert!((floor.bend_at(10.0).unwrap().angle_rad - slope).abs() < 1e-12);
+        assert!((floor.bend_at(5.0).unwrap().turning_rad_m - 0.05 * slope).abs() < 1e-12);
+        assert!(floor.bend_at(-1.0).is_none() && floor.bend_at(20.0).is_none());
     }
 }

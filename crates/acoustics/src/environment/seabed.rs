@@ -1,17 +1,25 @@
 use super::FluidHalfSpace;
 use std::str::FromStr;
 
-/// Sea floors by name, as half-spaces of the compressional properties in
-/// Table 1.3 of *Computational Ocean Acoustics* (Jensen, Kuperman, Porter &
-/// Schmidt, 2nd ed. 2011, doi:10.1007/978-1-4419-8678-8). Shear is left out, so
-/// the rocks reflect more at steep angles than they should.
+/// Sea floors by name, as fluid half-spaces: compressional speed, density and
+/// attenuation. Shear is left out, so the rocks reflect more at steep angles than
+/// they should.
+///
+/// All but clay are rows of Table 1.3 (bottom properties of the continental shelf
+/// and slope) of *Computational Ocean Acoustics* (Jensen, Kuperman, Porter &
+/// Schmidt, 2nd ed. 2011, doi:10.1007/978-1-4419-8678-8), abbreviated COA. The
+/// table gives speeds relative to that of water; here they are for water of
+/// 1500 m/s, and densities are relative to water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seabed {
     /// Clay so soft that it returns almost nothing: mean grain size 9 φ of the
-    /// APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook (TR 9407,
-    /// 1994): 0.9801 times the speed of the water above (here 1488 m/s).
+    /// *APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook* (TR 9407,
+    /// 1994), section IV, Table 2: density ratio 1.145, 0.98 times the speed of the
+    /// water above (here 1488 m/s, as near the floor of the South China Sea slope),
+    /// loss parameter δ = 0.00148, which is 40π δ / ln 10 = 0.08 dB per wavelength.
+    /// COA's clay is called mud here.
     Clay,
-    /// Soft mud of the slope and the deep sea (the table's clay, 70 % porosity).
+    /// Soft mud of the slope and the deep sea: COA's clay, of 70 % porosity.
     Mud,
     /// Silt, 55 % porosity.
     Silt,
@@ -25,7 +33,7 @@ pub enum Seabed {
     Chalk,
     /// Limestone.
     Limestone,
-    /// Basalt: rock.
+    /// Rock: COA's basalt.
     Rock,
 }
 
@@ -58,7 +66,22 @@ impl Seabed {
         }
     }
 
-    /// Its acoustic properties: COA Table 1.3 (speeds for water of 1500 m/s), but clay.
+    /// Where its properties are from, in a few words.
+    pub const fn source(self) -> &'static str {
+        match self {
+            Self::Clay => "APL-UW TR 9407, 9 φ",
+            Self::Mud => "COA Table 1.3, clay",
+            Self::Silt => "COA Table 1.3, silt",
+            Self::Sand => "COA Table 1.3, sand",
+            Self::Gravel => "COA Table 1.3, gravel",
+            Self::Moraine => "COA Table 1.3, moraine",
+            Self::Chalk => "COA Table 1.3, chalk",
+            Self::Limestone => "COA Table 1.3, limestone",
+            Self::Rock => "COA Table 1.3, basalt",
+        }
+    }
+
+    /// Its acoustic properties.
     pub const fn half_space(self) -> FluidHalfSpace {
         let (speed_m_s, density_ratio, attenuation_db_wavelength) = match self {
             Self::Clay => (1458.0, 1.145, 0.08),
@@ -102,6 +125,37 @@ mod tests {
         for seabed in Seabed::ALL {
             assert_eq!(seabed.name().parse(), Ok(seabed));
         }
+        for seabed in Seabed::ALL {
+            assert!(UnknownSeabed(String::new()).to_string().contains(seabed.name()));
+        }
         assert_eq!("granite".parse::<Seabed>(), Err(UnknownSeabed("granite".to_owned())));
+    }
+    /// Speeds as multiples of 1500 m/s, as the table gives them.
+    #[test]
+    fn the_table_of_continental_floors() {
+        for (seabed, speed_ratio, density_ratio, attenuation_db_wavelength) in [
+            (Seabed::Mud, 1.0, 1.5, 0.2),
+            (Seabed::Silt, 1.05, 1.7, 1.0),
+            (Seabed::Sand, 1.1, 1.9, 0.8),
+            (Seabed::Gravel, 1.2, 2.0, 0.6),
+            (Seabed::Moraine, 1.3, 2.1, 0.4),
+            (Seabed::Chalk, 1.6, 2.2, 0.2),
+            (Seabed::Limestone, 2.0, 2.4, 0.1),
+            (Seabed::Rock, 3.5, 2.7, 0.1),
+        ] {
+            let speed_m_s = 1500.0 * speed_ratio;
+            let expected = FluidHalfSpace { speed_m_s, density_ratio, attenuation_db_wavelength };
+            assert_eq!(seabed.half_space(), expected, "{}", seabed.name());
+            assert!(seabed.source().starts_with("COA"));
+        }
+    }
+
+    #[test]
+    fn clay_is_that_of_9_phi() {
+        let clay = Seabed::Clay.half_space();
+        assert!((clay.speed_m_s / 1488.0 - 0.98).abs() < 2e-4);
+        let loss_parameter = 0.00148;
+        let per_wavelength = 40.0 * std::f64::consts::PI * loss_parameter / 10f64.ln();
+        assert!((clay.attenuation_db_wavelength - per_wavelength).abs() < 1e-3);
     }
 }

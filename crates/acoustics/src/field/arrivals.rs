@@ -26,6 +26,7 @@ pub struct Arrivals {
     pub range_m: Vec<f64>,
     /// Depths of the receivers, metres.
     pub depth_m: Vec<f64>,
-    /// Arrivals at each receiver, [depth, range], in the order of their delays.
+    /// Arrivals at each receiver, [depth, range], or at each pair of receivers that are
+    /// no grid, in the order of their delays.
     pub at: Vec<Vec<Arrival>>,
 }

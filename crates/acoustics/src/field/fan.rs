@@ -1,4 +1,4 @@
-use crate::error::{AcousticsError, within};
+use crate::error::{AcousticsError, ascending, within};
 
 /// A launch direction and the share of the fan that it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +36,34 @@ impl LaunchFan {
             width_rad,
         };
         Ok(Self { beams: (0..count).map(beam).collect() })
+    }
+
+    /// Beams at ascending angles, degrees; each stands for what lies half-way to its
+    /// neighbours, the outermost as far outwards as inwards. One alone has no width.
+    ///
+    /// # Errors
+    /// If there is no angle, or they do not ascend within ±90°.
+    pub fn at(angles_deg: &[f64]) -> Result<Self, AcousticsError> {
+        let count = angles_deg.len();
+        within("the number of beams", "at least 1", count as f64, count > 0)?;
+        ascending("launch angles", angles_deg)?;
+        let (first, last) = (angles_deg[0], angles_deg[count - 1]);
+        within("the first launch angle", "at least -90", first, first >= -90.0)?;
+        within("the last launch angle", "at most 90", last, last <= 90.0)?;
+        let beam = |index: usize| {
+            let (before, after) = (index.saturating_sub(1), (index + 1).min(count - 1));
+            let apart = (after - before).max(1) as f64;
+            Beam {
+                angle_rad: angles_deg[index].to_radians(),
+                width_rad: ((angles_deg[after] - angles_deg[before]) / apart).to_radians(),
+            }
+        };
+        Ok(Self { beams: (0..count).map(beam).collect() })
+    }
+
+    /// One beam of the fan, counted from 0, as wide as it is.
+    pub fn only(&self, index: usize) -> Option<Self> {
+        self.beams.get(index).map(|&beam| Self { beams: vec![beam] })
     }
 
     /// A fan symmetric about the horizontal, denser at shallow angles: for each
@@ -109,7 +137,19 @@ mod tests {
     }
 
     #[test]
+    fn beams_at_given_angles_share_the_fan() {
+        let fan = LaunchFan::at(&[-10.0, 0.0, 2.0, 10.0]).unwrap();
+        let widths = fan.beams().iter().map(|beam| beam.width_rad.to_degrees());
+        for (width, exact) in widths.zip([10.0, 6.0, 5.0, 8.0]) {
+            assert!((width - exact).abs() < 1e-12);
+        }
+        assert_eq!(fan.only(2).unwrap().beams(), &fan.beams()[2..3]);
+        assert!(fan.only(4).is_none());
+    }
+
+    #[test]
     fn bad_fans_are_refused() {
+        assert!(LaunchFan::at(&[]).is_err() && LaunchFan::at(&[5.0, 5.0]).is_err());
         assert!(LaunchFan::uniform(-10.0, 10.0, 1).is_err());
         assert!(LaunchFan::uniform(10.0, -10.0, 5).is_err());
         assert!(LaunchFan::graded(&[(12.0, 3)]).is_err());

@@ -2,18 +2,21 @@
 
 mod arrivals;
 mod batch;
+mod beam_kind;
 mod beam_pattern;
 mod fan;
 mod influence;
 mod range_profile;
 mod settings;
+mod shot;
 mod transmission_loss;
 
 pub use arrivals::{Arrival, Arrivals};
 pub use batch::{FanPart, batch_intensity};
+pub use beam_kind::{BeamCoordinates, BeamKind, BeamShape, Coherence};
 pub use beam_pattern::BeamPattern;
 pub use fan::{Beam, LaunchFan};
-pub use influence::{BeamCoordinates, BeamKind, BeamShape, Coherence};
 pub use range_profile::{RangeProfile, RangeProfiler};
-pub use settings::{Receivers, Source, SourceGeometry, TraceSettings};
+pub use settings::{ReceiverLayout, Receivers, Source, SourceGeometry, TraceSettings};
+pub(crate) use shot::Shot;
 pub use transmission_loss::{Field, transmission_loss};

@@ -36,6 +36,9 @@ pub struct RangeProfile {
 }
 
 impl RangeProfile {
+    /// Standard deviation of the window, in steps.
+    pub const WINDOW_STEPS: f64 = WINDOW_STEPS;
+
     /// Intensity at a range, linear between samples of r · intensity (which
     /// keeps spherical spreading near the source); 0 beyond the last.
     pub fn intensity_at(&self, range_m: f64) -> f64 {

@@ -1,14 +1,17 @@
 //! Propagation models: what answers a [`Case`]. There are two, this crate's own
-//! ([`Native`]) and an external program of the BELLHOP family.
+//! ([`Native`]) and an external program of the BELLHOP family
+//! ([`crate::bellhop::Executable`]).
 
 mod case;
 mod native;
+mod slice;
 
 pub use case::{Case, Run};
 pub use native::Native;
+pub use slice::Slice;
 
 use crate::error::AcousticsError;
-use crate::field::{Arrivals, Field};
+use crate::field::{Arrivals, Field, RangeProfile};
 use crate::ray::Ray;
 
 /// The answer to a [`Case`], an entry for each of its sources.
@@ -33,4 +36,15 @@ pub trait PropagationModel: Send + Sync {
     /// If a source is not in the water, the case asks for something that the model
     /// does not offer, or the model fails.
     fn solve(&self, case: &Case) -> Result<Output, AcousticsError>;
+
+    /// The intensity over range that tables of transmission loss are made of.
+    ///
+    /// Here it is averaged from the field of a [`Slice::case`]; models that have a more
+    /// direct way take it.
+    ///
+    /// # Errors
+    /// As [`PropagationModel::solve`], or if the step is not positive.
+    fn intensity_profile(&self, slice: &Slice<'_>) -> Result<RangeProfile, AcousticsError> {
+        Ok(slice.profile(&self.solve(&slice.case()?)?))
+    }
 }

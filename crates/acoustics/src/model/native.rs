@@ -1,7 +1,7 @@
-use super::{Case, Output, PropagationModel, Run};
+use super::{Case, Output, PropagationModel, Run, Slice};
 use crate::error::AcousticsError;
-use crate::field::transmission_loss;
-use crate::ray::trace;
+use crate::field::{RangeProfile, RangeProfiler, Shot};
+use crate::ray::{Medium, MediumLimits};
 
 /// The model of this crate.
 #[derive(Debug, Clone, Copy, Default)]
@@ -13,35 +13,38 @@ impl PropagationModel for Native {
     }
 
     fn solve(&self, case: &Case) -> Result<Output, AcousticsError> {
-        match case.run {
-            Run::Field(coherence) => case
-                .sources()
-                .map(|source| {
-                    transmission_loss(
-                        &case.section,
-                        &source,
-                        &case.fan,
-                        &case.receivers,
-                        case.beams.shape,
-                        coherence,
-                        &case.settings,
-                    )
-                })
-                .collect::<Result<_, _>>()
-                .map(Output::Fields),
-            Run::Rays => case
-                .sources()
-                .map(|source| {
-                    let rays = case.fan.beams().iter().map(|beam| {
-                        trace(&case.section, &source, beam.angle_rad.to_degrees(), &case.settings)
-                    });
-                    rays.collect()
-                })
-                .collect::<Result<_, _>>()
-                .map(Output::Rays),
-            Run::Eigenrays | Run::Arrivals => {
-                Err(AcousticsError::NotOffered { model: "native", what: "arrivals" })
-            }
+        for source in case.sources() {
+            source.check(&case.section)?;
         }
+        let medium = Medium::new(&case.section, &MediumLimits::from(&case.settings));
+        let shots = case.sources().map(|source| Shot {
+            section: &case.section,
+            medium: &medium,
+            source,
+            geometry: case.geometry,
+            beam_pattern: case.beam_pattern.as_ref(),
+            fan: &case.fan,
+            beams: case.beams,
+            receivers: &case.receivers,
+            amplitude_cutoff: case.settings.amplitude_cutoff,
+        });
+        Ok(match case.run {
+            Run::Field(coherence) => {
+                Output::Fields(shots.map(|shot| shot.field(coherence)).collect())
+            }
+            Run::Rays => Output::Rays(shots.map(|shot| shot.rays()).collect()),
+            Run::Eigenrays => Output::Rays(shots.map(|shot| shot.eigenrays()).collect()),
+            Run::Arrivals => Output::Arrivals(shots.map(|shot| shot.arrivals()).collect()),
+        })
+    }
+
+    fn intensity_profile(&self, slice: &Slice<'_>) -> Result<RangeProfile, AcousticsError> {
+        RangeProfiler::new(slice.section, slice.settings).intensity(
+            &slice.source,
+            slice.fan,
+            slice.receiver_depth_m,
+            slice.step_m,
+            slice.count,
+        )
     }
 }

@@ -1,5 +1,6 @@
+use super::levels::{Level, levels, squared_slowness};
 use super::segment::Pair;
-use crate::environment::{ProfileLaw, Section};
+use crate::environment::{Bend, Section};
 
 /// A section made ready for rays: cells between range nodes and depth levels,
 /// with 1/c² bilinear in each.
@@ -11,7 +12,7 @@ pub(crate) struct Medium {
     pub cells: Vec<Cell>,
 }
 
-/// An interval of range, over which the sea floor is straight.
+/// An interval of range, over which surface and sea floor are straight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Column {
     pub middle: f64,
@@ -22,6 +23,23 @@ pub(crate) struct Column {
     pub slope: f64,
     /// First layer that reaches below the shallowest point of the sea floor.
     pub first_cut: usize,
+    /// How a curvilinear sea floor turns, from the middle.
+    pub floor_bend: Option<Bend>,
+    /// The surface, if it is not the top of the first layer.
+    pub roof: Option<Roof>,
+}
+
+/// The surface over a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Roof {
+    /// Its depth at the middle.
+    pub depth: f64,
+    /// Its slope, dz/dx.
+    pub slope: f64,
+    /// Last layer that reaches above its deepest point.
+    pub last_cut: usize,
+    /// How a curvilinear surface turns, from the middle.
+    pub bend: Option<Bend>,
 }
 
 /// An interval of depth.
@@ -65,9 +83,11 @@ pub(crate) struct MediumLimits {
     pub near_m: f64,
     /// Range of its far end, metres.
     pub far_m: f64,
+    /// Depth of its lower end, metres.
+    pub deepest_m: f64,
     /// Widest column where the sound speed depends on range, metres.
     pub column_m: f64,
-    /// Largest departure from a profile that is linear in speed, m/s.
+    /// Largest departure from the section's profiles, m/s.
     pub speed_tolerance_m_s: f64,
 }
 
@@ -75,8 +95,7 @@ impl Medium {
     /// Cells of a section between two ranges.
     pub(crate) fn new(section: &Section, limits: &MediumLimits) -> Self {
         let nodes = range_nodes(section, limits);
-        let field = section.sound_speed();
-        let levels = refined_levels(section, limits.speed_tolerance_m_s);
+        let levels = levels(section.sound_speed(), limits.speed_tolerance_m_s, limits.deepest_m);
         let layers: Vec<Layer> = levels
             .windows(2)
             .map(|pair| Layer {
@@ -84,41 +103,9 @@ impl Medium {
                 half_height: 0.5 * (pair[1].depth - pair[0].depth),
             })
             .collect();
-
-        let mut columns = Vec::with_capacity(nodes.len() - 1);
-        let mut cells = Vec::with_capacity((nodes.len() - 1) * layers.len());
-        let mut profile = Vec::new();
-        let mut left = Vec::new();
-        let mut right = Vec::new();
-        squared_slowness(section, &levels, nodes[0], &mut profile, &mut left);
-        for pair in nodes.windows(2) {
-            let (x0, x1) = (pair[0], pair[1]);
-            if field.range_m().len() > 1 {
-                squared_slowness(section, &levels, x1, &mut profile, &mut right);
-            } else {
-                right.clone_from(&left);
-            }
-            let (z0, z1) =
-                (section.bathymetry().depth_at_m(x0), section.bathymetry().depth_at_m(x1));
-            let shallowest = z0.min(z1);
-            columns.push(Column {
-                middle: 0.5 * (x0 + x1),
-                half_width: 0.5 * (x1 - x0),
-                floor: 0.5 * (z0 + z1),
-                slope: (z1 - z0) / (x1 - x0),
-                first_cut: layers
-                    .partition_point(|layer| layer.middle + layer.half_height < shallowest),
-            });
-            for (j, layer) in layers.iter().enumerate() {
-                let (width, height) = (x1 - x0, 2.0 * layer.half_height);
-                let [a, b, c, d] = [left[j], left[j + 1], right[j], right[j + 1]];
-                let centre = 0.25 * (a + b + c + d);
-                let gradient = Pair::new((c + d - a - b) / width, (b + d - a - c) / height) * 0.25;
-                let twist = 0.5 * (a + d - b - c) / (width * height);
-                cells.push(Cell { centre, gradient, twist });
-            }
-            std::mem::swap(&mut left, &mut right);
-        }
+        let columns =
+            nodes.windows(2).map(|pair| column(section, &layers, pair[0], pair[1])).collect();
+        let cells = cells(section, &nodes, &levels, &layers);
         Self { columns, layers, cells }
     }
 
@@ -139,28 +126,22 @@ impl Medium {
     }
 }
 
-/// A level of the medium: its depth, and where it lies between two levels of the
-/// section's profile.
-struct Level {
-    depth: f64,
-    above: usize,
-    fraction: f64,
-}
-
-/// Ends, bathymetry nodes, sound-speed columns, and what divides wide columns
-/// of a range-dependent field.
+/// Ends, nodes of surface and sea floor, sound-speed columns, and what divides wide
+/// columns of a range-dependent field.
 fn range_nodes(section: &Section, limits: &MediumLimits) -> Vec<f64> {
     let field = section.sound_speed();
     let depends_on_range = field.range_m().len() > 1;
     let mut nodes = vec![limits.near_m, limits.far_m];
     let inside = |range: &f64| (limits.near_m..limits.far_m).contains(range);
-    nodes.extend(section.bathymetry().range_m().iter().copied().filter(inside));
+    for interface in section.altimetry.iter().chain([section.bathymetry()]) {
+        nodes.extend(interface.range_m().iter().copied().filter(inside));
+    }
     if depends_on_range {
         nodes.extend(field.range_m().iter().copied().filter(inside));
     }
     nodes.sort_by(f64::total_cmp);
-    // Nodes closer than a millimetre are one.
-    nodes.dedup_by(|b, a| *b - *a < 1e-3);
+    // Nodes closer than a micrometre are one.
+    nodes.dedup_by(|b, a| *b - *a < 1e-6);
     if !depends_on_range {
         return nodes;
     }
@@ -174,48 +155,55 @@ fn range_nodes(section: &Section, limits: &MediumLimits) -> Vec<f64> {
     divided
 }
 
-/// The section's levels, and what divides layers in which linear 1/c² would
-/// depart from linear c by more than the tolerance: the sagitta is 3(Δc)²/8c.
-fn refined_levels(section: &Section, tolerance: f64) -> Vec<Level> {
-    let field = section.sound_speed();
-    let depth = field.depth_m();
-    let mut levels = vec![Level { depth: depth[0], above: 0, fraction: 0.0 }];
-    for above in 0..depth.len() - 1 {
-        let parts = match field.law() {
-            ProfileLaw::LinearSquaredIndex => 1,
-            ProfileLaw::LinearSpeed => field
-                .speed_m_s()
-                .chunks_exact(depth.len())
-                .map(|profile| {
-                    let (upper, lower) = (profile[above], profile[above + 1]);
-                    let largest_step = (8.0 / 3.0 * tolerance * upper).sqrt();
-                    ((lower - upper).abs() / largest_step).ceil().max(1.0) as usize
-                })
-                .max()
-                .unwrap_or(1),
-        };
-        for part in 1..=parts {
-            let fraction = part as f64 / parts as f64;
-            let step = depth[above + 1] - depth[above];
-            levels.push(Level { depth: depth[above] + fraction * step, above, fraction });
+/// The column between two ranges.
+fn column(section: &Section, layers: &[Layer], x0: f64, x1: f64) -> Column {
+    let middle = 0.5 * (x0 + x1);
+    let floor = section.bathymetry();
+    let (z0, z1) = (floor.depth_at_m(x0), floor.depth_at_m(x1));
+    let shallowest = z0.min(z1);
+    let roof = section.altimetry.as_ref().map(|surface| {
+        let (z0, z1) = (surface.depth_at_m(x0), surface.depth_at_m(x1));
+        let deepest = z0.max(z1);
+        let reaching = layers.partition_point(|layer| layer.middle - layer.half_height <= deepest);
+        Roof {
+            depth: 0.5 * (z0 + z1),
+            slope: (z1 - z0) / (x1 - x0),
+            last_cut: reaching.saturating_sub(1),
+            bend: surface.bend_at(middle),
         }
+    });
+    Column {
+        middle,
+        half_width: 0.5 * (x1 - x0),
+        floor: 0.5 * (z0 + z1),
+        slope: (z1 - z0) / (x1 - x0),
+        first_cut: layers.partition_point(|layer| layer.middle + layer.half_height < shallowest),
+        floor_bend: floor.bend_at(middle),
+        roof,
     }
-    levels
 }
 
-/// 1/c² at the levels of the medium at one range, written to `squared`.
-fn squared_slowness(
-    section: &Section,
-    levels: &[Level],
-    range_m: f64,
-    profile: &mut Vec<f64>,
-    squared: &mut Vec<f64>,
-) {
+/// The cells between range nodes and levels, [column, layer].
+fn cells(section: &Section, nodes: &[f64], levels: &[Level], layers: &[Layer]) -> Vec<Cell> {
     let field = section.sound_speed();
-    field.profile_at(range_m, profile);
-    squared.clear();
-    squared.extend(levels.iter().map(|level| {
-        let (upper, lower) = (profile[level.above], profile[level.above + 1]);
-        field.law().between(upper, lower, level.fraction).powi(-2)
-    }));
+    let mut cells = Vec::with_capacity((nodes.len() - 1) * layers.len());
+    let mut left = squared_slowness(field, levels, nodes[0]);
+    for pair in nodes.windows(2) {
+        let width = pair[1] - pair[0];
+        let right = if field.range_m().len() > 1 {
+            squared_slowness(field, levels, pair[1])
+        } else {
+            left.clone()
+        };
+        cells.extend(layers.iter().enumerate().map(|(j, layer)| {
+            let height = 2.0 * layer.half_height;
+            let [a, b, c, d] = [left[j], left[j + 1], right[j], right[j + 1]];
+            let centre = 0.25 * (a + b + c + d);
+            let gradient = Pair::new((c + d - a - b) / width, (b + d - a - c) / height) * 0.25;
+            let twist = 0.5 * (a + d - b - c) / (width * height);
+            Cell { centre, gradient, twist }
+        }));
+        left = right;
+    }
+    cells
 }

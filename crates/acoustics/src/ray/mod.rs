@@ -12,6 +12,7 @@
 //! linear in σ and changes at interfaces and reflections (see `tracer`).
 
 mod crossing;
+mod levels;
 mod medium;
 mod segment;
 mod trace;
@@ -19,6 +20,7 @@ mod tracer;
 
 pub(crate) use medium::{Medium, MediumLimits};
 pub(crate) use segment::{Pair, Segment, SegmentSink};
+pub(crate) use trace::record;
 pub use trace::{Ray, RayPoint, trace};
 pub use tracer::RayEnd;
 pub(crate) use tracer::{Launch, Tracer};

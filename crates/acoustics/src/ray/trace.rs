@@ -45,22 +45,28 @@ pub fn trace(
     source.check(section)?;
     let medium = Medium::new(section, &MediumLimits::from(settings));
     let tracer = Tracer::new(section, &medium, settings.amplitude_cutoff);
-    let mut path = Path::default();
     let launch = Launch { depth_m: source.depth_m, angle_rad: launch_angle_deg.to_radians() };
+    Ok(record(&tracer, launch, f64::INFINITY))
+}
+
+/// Traces one ray up to a length of its path.
+pub(crate) fn record(tracer: &Tracer<'_>, launch: Launch, until_m: f64) -> Ray {
+    let mut path = Path { until_m, points: Vec::new(), surface_bounces: 0, bottom_bounces: 0 };
     let end = tracer.run(launch, &mut path);
-    Ok(Ray {
-        launch_angle_deg,
+    Ray {
+        launch_angle_deg: launch.angle_rad.to_degrees(),
         points: path.points,
         surface_bounces: path.surface_bounces,
         bottom_bounces: path.bottom_bounces,
         end,
-    })
+    }
 }
 
 /// Records a ray. Within a cell it adds points where chords would depart from
 /// the parabola by more than [`Path::CHORD_M`].
-#[derive(Default)]
 struct Path {
+    /// Length of the path after which nothing is recorded.
+    until_m: f64,
     points: Vec<RayPoint>,
     surface_bounces: u32,
     bottom_bounces: u32,
@@ -79,12 +85,17 @@ impl SegmentSink for Path {
         if self.points.is_empty() {
             self.points.push(point(0.0));
         }
+        let left_m = self.until_m - segment.burden.path_m;
+        if left_m <= 0.0 {
+            return;
+        }
+        let length_m = segment.path_m(segment.sigma) - segment.burden.path_m;
+        let end = if length_m > left_m { segment.sigma * left_m / length_m } else { segment.sigma };
         let bend = segment.gradient.dot(segment.gradient).sqrt();
-        let sagitta_m = bend * segment.sigma * segment.sigma / 8.0;
+        let sagitta_m = bend * end * end / 8.0;
         let parts = (sagitta_m / Self::CHORD_M).sqrt().ceil().clamp(1.0, 1000.0) as u32;
-        self.points.extend(
-            (1..=parts).map(|part| point(segment.sigma * f64::from(part) / f64::from(parts))),
-        );
+        self.points
+            .extend((1..=parts).map(|part| point(end * f64::from(part) / f64::from(parts))));
         self.surface_bounces = segment.burden.surface_bounces;
         self.bottom_bounces = segment.burden.bottom_bounces;
     }

@@ -1,7 +1,7 @@
 use super::crossing::{contact, exit};
-use super::medium::{Column, Medium};
+use super::medium::{Column, Medium, Roof};
 use super::segment::{Burden, Pair, Segment, SegmentSink};
-use crate::environment::{Boundary, Section};
+use crate::environment::{Bend, Boundary, Section};
 
 /// Rays leave a boundary at this grazing angle at least, radians: one that water
 /// refracts back to it would otherwise touch it without end. In a gradient of
@@ -19,13 +19,22 @@ const LEAST_REFLECTION: f64 = 1e-5;
 /// between cells that are far too small.
 const MOST_SEGMENTS: usize = 1_000_000;
 
+/// Reflections in a row with less than [`CORNER_M`] between them that end a ray: it is
+/// caught where surface and sea floor meet.
+const CORNER_REFLECTIONS: u32 = 100;
+
+/// Shorter ways than this between reflections are none, metres.
+const CORNER_M: f64 = 1e-6;
+
 /// Why a ray ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RayEnd {
-    /// It left by the far or the near end of the section.
+    /// It left by the far, the near or the lower end of what is looked at.
     LeftDomain,
     /// Reflections made it weaker than the cut-off.
     Faded,
+    /// It was caught in the corner between surface and sea floor.
+    Cornered,
     /// It went through more cells than a ray may (a million).
     TooLong,
 }
@@ -63,6 +72,17 @@ enum Meeting {
     /// A level: the layer above (−1) or below (+1) comes next.
     Level(isize),
     Floor,
+    Roof,
+}
+
+/// An interface where a ray meets it.
+#[derive(Debug, Clone, Copy)]
+struct Wall<'a> {
+    /// Normal of the straight piece, out of the water.
+    normal: Pair,
+    /// How the interface turns there, if it is curvilinear.
+    bend: Option<Bend>,
+    boundary: &'a Boundary,
 }
 
 struct State {
@@ -80,21 +100,33 @@ impl Tracer<'_> {
     /// Traces one ray, giving each of its segments to `sink`.
     pub(crate) fn run(&self, launch: Launch, sink: &mut impl SegmentSink) -> RayEnd {
         let mut ray = self.launch(launch);
+        let mut reflections = 0;
+        let mut last_reflection_m = 0.0;
         for _ in 0..MOST_SEGMENTS {
             let (segment, meeting) = self.segment(&ray);
             sink.segment(&segment);
             self.advance(&mut ray, &segment, meeting);
-            match meeting {
-                Meeting::Node(side) => {
-                    if !self.enter_column(&mut ray, side) {
-                        return RayEnd::LeftDomain;
-                    }
-                }
+            let (surface, bottom) = (ray.burden.surface_bounces, ray.burden.bottom_bounces);
+            let inside = match meeting {
+                Meeting::Node(side) => self.enter_column(&mut ray, side),
                 Meeting::Level(side) => self.enter_layer(&mut ray, side),
                 Meeting::Floor => self.reflect_off_floor(&mut ray),
+                Meeting::Roof => self.reflect_off_surface(&mut ray),
+            };
+            if !inside {
+                return RayEnd::LeftDomain;
+            }
+            if (surface, bottom) == (ray.burden.surface_bounces, ray.burden.bottom_bounces) {
+                continue;
             }
             if ray.burden.amplitude < self.amplitude_cutoff.max(LEAST_REFLECTION) {
                 return RayEnd::Faded;
+            }
+            let gone = ray.burden.path_m - last_reflection_m;
+            reflections = if gone < CORNER_M { reflections + 1 } else { 0 };
+            last_reflection_m = ray.burden.path_m;
+            if reflections > CORNER_REFLECTIONS {
+                return RayEnd::Cornered;
             }
         }
         RayEnd::TooLong
@@ -187,7 +219,16 @@ impl Tracer<'_> {
             let push = gradient.z - column.slope * gradient.x;
             let floor = contact(closing, push, gap.max(0.0));
             if floor <= sigma {
-                return (floor, Meeting::Floor);
+                (sigma, meeting) = (floor, Meeting::Floor);
+            }
+        }
+        if let Some(roof) = column.roof.filter(|roof| ray.layer <= roof.last_cut) {
+            let gap = layer.middle + local.z - roof_at(&roof, local.x);
+            let closing = roof.slope * slowness.x - slowness.z;
+            let push = roof.slope * gradient.x - gradient.z;
+            let contact = contact(closing, push, gap.max(0.0));
+            if contact <= sigma {
+                (sigma, meeting) = (contact, Meeting::Roof);
             }
         }
         (sigma, meeting)
@@ -219,6 +260,11 @@ impl Tracer<'_> {
                 downward = side as f64;
             }
             Meeting::Floor => ray.local.z = floor_at(&column, ray.local.x) - layer.middle,
+            Meeting::Roof => {
+                if let Some(roof) = column.roof {
+                    ray.local.z = roof_at(&roof, ray.local.x) - layer.middle;
+                }
+            }
         }
         let least = (LEAST_SLOPE * ray.slowness.x).powi(2);
         let vertical_squared = cell.squared_slowness(ray.local) - ray.slowness.x * ray.slowness.x;
@@ -240,18 +286,16 @@ impl Tracer<'_> {
         true
     }
 
-    /// Passes to the neighbouring layer, or reflects off the surface. Below the
-    /// last layer there is no water: a ray that rounding brings there meets the
-    /// floor.
-    fn enter_layer(&self, ray: &mut State, side: isize) {
+    /// Passes to the neighbouring layer, or reflects off the surface; false at the lower
+    /// end of the medium. Where the sea floor lies at that end, a ray that rounding
+    /// brings there meets the floor.
+    fn enter_layer(&self, ray: &mut State, side: isize) -> bool {
         let Some(next) = ray.layer.checked_add_signed(side) else {
-            self.reflect(ray, Pair::new(0.0, -1.0), self.surface);
-            ray.burden.surface_bounces += 1;
-            return;
+            return self.reflect_off_surface(ray);
         };
         if next >= self.medium.layers.len() {
-            self.reflect_off_floor(ray);
-            return;
+            let below = self.floor_below(ray);
+            return below <= FLOOR_ROUNDING_M && self.reflect_off_floor(ray);
         }
         let before = self.medium.cell(ray.column, ray.layer).gradient_at(ray.local);
         ray.layer = next;
@@ -259,39 +303,87 @@ impl Tracer<'_> {
         let after = self.medium.cell(ray.column, ray.layer).gradient_at(ray.local);
         // δp += (G₂ − G₁) δₙ/pₙ
         ray.offset_slowness.z += (after.z - before.z) * ray.offset.z / ray.slowness.z;
+        true
     }
 
-    fn reflect_off_floor(&self, ray: &mut State) {
-        let slope = self.medium.columns[ray.column].slope;
-        let secant = slope.mul_add(slope, 1.0).sqrt();
-        self.reflect(ray, Pair::new(-slope / secant, 1.0 / secant), self.bottom);
+    /// How far the sea floor lies below a ray, metres.
+    fn floor_below(&self, ray: &State) -> f64 {
+        let (column, layer) = (&self.medium.columns[ray.column], self.medium.layers[ray.layer]);
+        floor_at(column, ray.local.x) - (layer.middle + ray.local.z)
+    }
+
+    fn reflect_off_floor(&self, ray: &mut State) -> bool {
+        let column = &self.medium.columns[ray.column];
+        let normal = unit_normal(column.slope);
+        self.reflect(ray, Wall { normal, bend: column.floor_bend, boundary: self.bottom });
         ray.burden.bottom_bounces += 1;
+        true
     }
 
-    /// Specular reflection at a plane with this outward normal.
+    fn reflect_off_surface(&self, ray: &mut State) -> bool {
+        let roof = self.medium.columns[ray.column].roof;
+        let normal = unit_normal(roof.map_or(0.0, |roof| roof.slope)) * -1.0;
+        let bend = roof.and_then(|roof| roof.bend);
+        self.reflect(ray, Wall { normal, bend, boundary: self.surface });
+        ray.burden.surface_bounces += 1;
+        true
+    }
+
+    /// Specular reflection.
     ///
-    /// The neighbouring ray meets the plane δσ = −δₙ/pₙ later; at equal σ its
-    /// slowness differs by δp ← Refl(δp + Gδσ) − Gδσ.
-    fn reflect(&self, ray: &mut State, normal: Pair, boundary: &Boundary) {
+    /// The neighbouring ray meets the wall δσ = −δₙ/pₙ later and δs = δₜ − pₜδₙ/pₙ
+    /// farther along; at equal σ its slowness differs by
+    /// δp ← Refl(δp + Gδσ) − Gδσ − 2κδs(pₜn + pₙt), where the normal turns by κ = dn/ds·t
+    /// along the wall. A curvilinear wall is met on its straight pieces, but reflects by
+    /// the normal n of its bend.
+    fn reflect(&self, ray: &mut State, wall: Wall<'_>) {
+        let side = wall.normal.z.signum();
+        let normal = wall.bend.map_or(wall.normal, |bend| {
+            let angle = bend.angle_rad + bend.turning_rad_m * ray.local.x;
+            Pair::new(-angle.sin(), angle.cos()) * side
+        });
         let mirror = |v: Pair| v + normal * (-2.0 * v.dot(normal));
         let least = LEAST_GRAZING * ray.slowness.dot(ray.slowness).sqrt();
         let across = ray.slowness.dot(normal).max(least);
         let along = ray.slowness.cross(normal);
         let gradient = self.medium.cell(ray.column, ray.layer).gradient_at(ray.local);
         let later = gradient * (-ray.offset.dot(normal) / across);
-        ray.offset_slowness = mirror(ray.offset_slowness + later) + later * -1.0;
+        let mut offset_slowness = mirror(ray.offset_slowness + later) + later * -1.0;
+        if let Some(bend) = wall.bend {
+            let tangent = Pair::new(normal.z, -normal.x);
+            let slip = ray.offset.dot(tangent) - along * ray.offset.dot(normal) / across;
+            // The tangent turns by dφ/dx; the straight piece is longer than its dx.
+            let turning = -bend.turning_rad_m * wall.normal.z.abs();
+            let kick = -2.0 * turning * side * slip;
+            offset_slowness = offset_slowness + (normal * along + tangent * across) * kick;
+        }
+        ray.offset_slowness = offset_slowness;
         ray.offset = mirror(ray.offset);
         ray.slowness = mirror(ray.slowness);
-        let away = -ray.slowness.dot(normal);
+        let away = -ray.slowness.dot(wall.normal);
         if away < least {
-            ray.slowness = ray.slowness + normal * (away - least);
+            ray.slowness = ray.slowness + wall.normal * (away - least);
         }
 
-        let coefficient = boundary.reflection(along, across);
+        let coefficient = wall.boundary.reflection(along, across);
         ray.burden.amplitude *= coefficient.modulus();
         ray.burden.phase_rad += coefficient.phase_rad();
         ray.burden.parity = -ray.burden.parity;
     }
+}
+
+/// A medium that ends within this of the sea floor ends at it, metres.
+const FLOOR_ROUNDING_M: f64 = 1e-6;
+
+/// Normal of a slope, downward.
+fn unit_normal(slope: f64) -> Pair {
+    let secant = slope.mul_add(slope, 1.0).sqrt();
+    Pair::new(-slope / secant, 1.0 / secant)
+}
+
+/// Depth of the surface at a distance from the middle of a column.
+fn roof_at(roof: &Roof, from_middle: f64) -> f64 {
+    roof.depth + roof.slope * from_middle
 }
 
 /// Depth of the sea floor at a distance from the middle of a column.

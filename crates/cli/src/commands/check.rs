@@ -6,6 +6,7 @@ use anyhow::Result;
 use serde_json::json;
 use sonarfleet::mission::{Theatre, findings};
 use sonarfleet::scenario::Scenario;
+use sonarfleet_acoustics::environment::Seabed;
 
 pub(crate) fn check(args: &CheckArgs, manner: Manner) -> Result<()> {
     let scenario = super::scenario(args.scenario.as_deref())?;
@@ -32,7 +33,8 @@ fn describe(scenario: &Scenario, theatre: &Theatre) -> String {
     format!(
         "{}\n  region   {:.4} to {:.4}° E, {:.4} to {:.4}° N: {} × {} cells of {:.0} × {:.0} m\n  \
          ocean    {}\n  depth    {:.0} to {:.0} m\n  fleet    {} vehicles at {:.0} m, {:.2} m/s\n  \
-         epochs   {} of {} h from {}\n  targets  {:.1} expected in the first epoch",
+         epochs   {} of {} h from {}\n  \
+         sound    {}\n  seabed   {}\n  targets  {:.1} expected in the first epoch",
         scenario.file.name,
         region.west_deg,
         region.east_deg,
@@ -51,6 +53,42 @@ fn describe(scenario: &Scenario, theatre: &Theatre) -> String {
         scenario.epochs.len(),
         scenario.epoch_h,
         scenario.start,
+        sound(scenario),
+        seabed(scenario),
         scenario.epochs[0].prior.total(),
+    )
+}
+
+/// At which frequencies transmission loss is taken, and where from.
+fn sound(scenario: &Scenario) -> String {
+    let table = |file: bool| {
+        if file { "from files".into() } else { format!("{} quality", scenario.quality.name()) }
+    };
+    let plan = &scenario.epochs[0];
+    let detection =
+        format!("detection at {} Hz ({})", scenario.frequency_hz, table(plan.loss_file.is_some()));
+    if !scenario.has_communication_table(0) {
+        return format!("{detection}; links by the same tables");
+    }
+    format!(
+        "{detection}; links at {} Hz ({})",
+        scenario.communication_frequency_hz,
+        table(plan.communication_loss_file.is_some())
+    )
+}
+
+/// What the sea floor is made of, and who says so.
+fn seabed(scenario: &Scenario) -> String {
+    let floor = &scenario.seabed;
+    let named = scenario.file.seabed.sediment.parse::<Seabed>();
+    let name = match named {
+        Ok(seabed) if scenario.file.seabed.half_space.is_none() => {
+            format!("{} ({})", seabed.name(), seabed.source())
+        }
+        _ => "as measured".into(),
+    };
+    format!(
+        "{name}: {} m/s, {} g/cm³, {} dB per wavelength",
+        floor.speed_m_s, floor.density_ratio, floor.attenuation_db_wavelength
     )
 }

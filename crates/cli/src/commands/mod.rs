@@ -10,12 +10,14 @@ pub(crate) mod route;
 pub(crate) mod run;
 pub(crate) mod tl;
 
+use crate::args::CacheArgs;
 use anyhow::{Result, ensure};
 use serde::Serialize;
 use sonarfleet::scenario::Scenario;
+use sonarfleet::sonar::transmission_loss::LossCache;
 use std::fmt::Display;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How to speak to the user.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +41,20 @@ fn scenario(path: Option<&Path>) -> Result<Scenario> {
         Some(path) => Scenario::read(path)?,
         None => Scenario::embedded(),
     })
+}
+
+/// Where computed transmission loss is kept, if it is.
+fn loss_cache(args: &CacheArgs) -> Option<LossCache> {
+    if args.no_cache {
+        return None;
+    }
+    let named = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    let own = named("SONARFLEET_CACHE").map(PathBuf::from);
+    // The XDG specification has relative paths ignored.
+    let xdg = || named("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let home = || std::env::home_dir().map(|home| home.join(".cache"));
+    let place = own.or_else(|| Some(xdg().or_else(home)?.join("sonarfleet")))?;
+    Some(LossCache::new(place.join("transmission-loss")))
 }
 
 /// Prints a line of results. Unlike `println!` it does not panic where nobody reads.

@@ -2,7 +2,7 @@
 
 use super::Manner;
 use crate::args::PlaceArgs;
-use crate::progress::Progress;
+use crate::progress::StageBars;
 use anyhow::{Context, Result, bail};
 use serde_json::json;
 use sonarfleet::mission::{Environment, Theatre, input};
@@ -69,8 +69,8 @@ struct Defaults {
 }
 
 fn from_instance(args: &PlaceArgs) -> Result<(PlacementInput, Defaults)> {
-    if args.loss.is_some() {
-        bail!("--loss goes with a scenario; {} holds its own table", args.input.display());
+    if args.loss.is_some() || args.communication_loss.is_some() {
+        bail!("tables go with a scenario; {} holds its own", args.input.display());
     }
     let section = PlacementSection::default();
     let defaults =
@@ -84,15 +84,21 @@ fn from_scenario(args: &PlaceArgs, manner: Manner) -> Result<(PlacementInput, De
     if let Some(path) = &args.loss {
         scenario.epochs[args.epoch].loss_file = Some(path.clone());
     }
+    if let Some(path) = &args.communication_loss {
+        scenario.epochs[args.epoch].communication_loss_file = Some(path.clone());
+    }
     let theatre = Theatre::of(&scenario)?;
-    let bar = Progress::new("transmission loss", !manner.talkative());
-    let environment =
-        Environment::at(&scenario, &theatre, args.epoch, &|done, total| bar.set(done, total))?;
-    drop(bar);
+    let cache = super::loss_cache(&args.cache);
+    let bars = StageBars::new(!manner.talkative());
+    let environment = Environment::at(&scenario, &theatre, args.epoch, cache.as_ref(), &|event| {
+        bars.tell(&event, |_, stage| stage.to_string());
+    })?;
     let defaults = Defaults {
         method: scenario.method,
         evaluations: scenario.file.placement.evaluations,
         seed: scenario.seed_of(args.epoch),
     };
-    Ok((input(&scenario, &theatre, args.epoch, &environment.loss), defaults))
+    let communication = environment.communication_loss.as_ref().map(|loss| &loss.table);
+    let input = input(&scenario, &theatre, args.epoch, &environment.loss.table, communication);
+    Ok((input, defaults))
 }

@@ -2,15 +2,17 @@
 
 use super::Manner;
 use crate::args::RunArgs;
-use crate::progress::Progress;
+use crate::progress::StageBars;
 use anyhow::Result;
 use serde_json::json;
 use sonarfleet::mission::{Event, Mission, Theatre};
 use sonarfleet::navigation::{NamedRoute, write_routes};
-use sonarfleet::record::{Checkpoint, EpochRecord, Provenance, RunDirectory, RunRecord, write_run};
+use sonarfleet::record::{
+    Checkpoint, EpochRecord, LossTableMetrics, Provenance, RunDirectory, RunRecord, write_run,
+};
 use sonarfleet::scenario::Scenario;
+use sonarfleet::sonar::transmission_loss::LossCache;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Instant;
 
 pub(crate) fn run(args: &RunArgs, manner: Manner) -> Result<()> {
@@ -22,7 +24,8 @@ pub(crate) fn run(args: &RunArgs, manner: Manner) -> Result<()> {
     let output = args.output.clone().unwrap_or_else(first_free);
     let directory =
         if args.resume { RunDirectory::resume(&output) } else { RunDirectory::create(&output) }?;
-    match run_in(&directory, &scenario, manner) {
+    let cache = super::loss_cache(&args.cache);
+    match run_in(&directory, &scenario, cache.as_ref(), manner) {
         Ok(record) => {
             let whole = directory.finish()?;
             conclude(&record, &whole, started.elapsed().as_secs_f64(), manner)
@@ -51,15 +54,25 @@ fn first_free() -> PathBuf {
 }
 
 /// Runs all epochs that are not done yet and writes everything down.
-fn run_in(directory: &RunDirectory, scenario: &Scenario, manner: Manner) -> Result<RunRecord> {
+fn run_in(
+    directory: &RunDirectory,
+    scenario: &Scenario,
+    loss_cache: Option<&LossCache>,
+    manner: Manner,
+) -> Result<RunRecord> {
     crate::log::also_into(directory.path())?;
     tracing::info!(version = env!("CARGO_PKG_VERSION"), scenario = scenario.file.name);
     let provenance =
         Provenance::new(scenario.resolved(), scenario.file.seed, scenario.input_files())?;
     let theatre = Theatre::of(scenario)?;
     let (solver, planner) = (scenario.method.solver(), scenario.planner());
-    let mission =
-        Mission { scenario, theatre: &theatre, solver: solver.as_ref(), planner: planner.as_ref() };
+    let mission = Mission {
+        scenario,
+        theatre: &theatre,
+        solver: solver.as_ref(),
+        planner: planner.as_ref(),
+        loss_cache,
+    };
     let mut state =
         Checkpoint::load(directory.path(), &provenance.fingerprint)?.unwrap_or_else(|| {
             Checkpoint {
@@ -104,12 +117,12 @@ fn export_routes(directory: &Path, scenario: &Scenario, record: &RunRecord) -> R
 struct Teller {
     manner: Manner,
     epochs: usize,
-    bar: Mutex<Option<Progress>>,
+    bars: StageBars,
 }
 
 impl Teller {
     fn new(manner: Manner, epochs: usize) -> Self {
-        Self { manner, epochs, bar: Mutex::new(None) }
+        Self { manner, epochs, bars: StageBars::new(!manner.talkative()) }
     }
 
     fn tell(&self, event: Event<'_>) {
@@ -118,38 +131,27 @@ impl Teller {
             Event::Epoch(record) => tracing::info!("{}", summary(record, self.epochs)),
             _ => {}
         }
-        if !self.manner.talkative() {
-            return;
-        }
-        let mut bar = self.bar.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        match event {
-            Event::Started { epoch, stage } => {
-                let name = format!("epoch {}/{} {stage}", epoch + 1, self.epochs);
-                *bar = Some(Progress::new(&name, false));
-            }
-            Event::Progressed { done, total } => {
-                if let Some(bar) = bar.as_ref() {
-                    bar.set(done, total);
-                }
-            }
-            Event::Finished { .. } => *bar = None,
+        let epochs = self.epochs;
+        self.bars.tell(&event, |epoch, stage| format!("epoch {}/{epochs} {stage}", epoch + 1));
+        if let Event::Epoch(record) = event
+            && self.manner.talkative()
+        {
             // A reader that has gone away must not stop the run.
-            Event::Epoch(record) => drop(super::say(summary(record, self.epochs))),
+            drop(super::say(summary(record, epochs)));
         }
     }
 }
 
-/// An epoch in three lines.
+/// An epoch in a few lines.
 fn summary(record: &EpochRecord, epochs: usize) -> String {
     let numbers = &record.metrics;
-    let loss = &numbers.transmission_loss;
     let verdict = if numbers.feasible { "feasible" } else { "INFEASIBLE" };
     let times: Vec<String> =
         record.seconds.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1} s")).collect();
     format!(
         "epoch {}/{epochs}  {}  J_d {:.2} of at most {:.2}, λ₂ {:.3} ({verdict}); \
          {} of {} vehicles on their posts, mean travel time {:.1} h\n  \
-         transmission loss: {} beams, {} bearings, to {:.1} km; {} from fine settings\n  {}",
+         transmission loss: {}\n{}  {}",
         record.epoch + 1,
         record.time,
         numbers.detection_utility,
@@ -158,18 +160,34 @@ fn summary(record: &EpochRecord, epochs: usize) -> String {
         numbers.arrived,
         record.routes.len(),
         numbers.mean_travel_time_h,
+        loss_summary(&numbers.transmission_loss),
+        numbers.communication_loss.as_ref().map_or_else(String::new, |loss| {
+            format!("  communication loss: {}\n", loss_summary(loss))
+        }),
+        times.join(", "),
+    )
+}
+
+/// How a table was made, and how far it is from the best.
+fn loss_summary(loss: &LossTableMetrics) -> String {
+    let difference = if loss.sampled_sources == 0 {
+        "not compared with fine settings".to_owned()
+    } else {
+        format!(
+            "median {:.2}, p90 {:.2} dB (over {} sources) from fine settings",
+            loss.median_error_db, loss.p90_error_db, loss.sampled_sources
+        )
+    };
+    if loss.beams == 0 {
+        return format!("from a file, at {} Hz; {difference}", loss.frequency_hz);
+    }
+    let directions = if loss.both_directions { ", both directions" } else { "" };
+    format!(
+        "{} Hz, {} beams, {} bearings{directions}, to {:.1} km; {difference}",
+        loss.frequency_hz,
         loss.beams,
         loss.bearings,
         loss.range_m / 1000.0,
-        if loss.sampled_sources == 0 {
-            "not compared".to_owned()
-        } else {
-            format!(
-                "median {:.2}, p90 {:.2} dB (over {} sources)",
-                loss.median_error_db, loss.p90_error_db, loss.sampled_sources
-            )
-        },
-        times.join(", "),
     )
 }
 

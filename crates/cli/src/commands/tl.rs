@@ -1,12 +1,13 @@
 //! `sonarfleet tl`: transmission loss from every cell to every cell, whole or in shards.
 
 use super::Manner;
-use crate::args::{Quality as QualityName, Shard, TlArgs, TlCommand};
+use crate::args::{LossUse as LossUseName, Quality as QualityName, Shard, TlArgs, TlCommand};
 use crate::progress::Progress;
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 use sonarfleet::grid::CellId;
 use sonarfleet::mission::{Acoustics, Theatre};
+use sonarfleet::scenario::LossUse;
 use sonarfleet::sonar::loss_file::{LossRows, read_rows};
 use sonarfleet::sonar::transmission_loss::Quality;
 use std::path::{Path, PathBuf};
@@ -35,21 +36,34 @@ fn compute(args: &TlArgs, output: &Path, manner: Manner) -> Result<()> {
     let theatre = Theatre::of(&scenario)?;
     let snapshot = scenario.instant(scenario.epochs[args.epoch].snapshot_h);
     let state = theatre.forecast.at(snapshot)?;
-    let acoustics = Acoustics::of(&scenario, &theatre, &state)?;
+    let purpose = match args.purpose {
+        LossUseName::Detection => LossUse::Detection,
+        LossUseName::Communication => LossUse::Communication,
+    };
+    let acoustics = Acoustics::of(&scenario, &theatre, &state, purpose)?;
     let sources = sources(scenario.grid.cell_count(), args.shard);
     let bar = Progress::new("transmission loss", !manner.talkative());
+    let cache = super::loss_cache(&args.cache);
     let started = Instant::now();
-    let loss_db = acoustics.rows(&scenario, &sources, &|done, total| bar.set(done, total))?;
-    let seconds = started.elapsed().as_secs_f64();
+    let computed = acoustics.rows(&scenario, &sources, cache.as_ref(), &|done, total| {
+        bar.set(done, total);
+    })?;
+    let work = Work { from_cache: computed.from_cache, seconds: started.elapsed().as_secs_f64() };
     drop(bar);
-    let rows = LossRows {
-        description: acoustics.description(&scenario, &state),
-        cell_degrees: theatre.cell_degrees.clone(),
+    let rows = LossRows::new(
+        acoustics.description(&scenario, &state),
+        theatre.cell_degrees.clone(),
         sources,
-        loss_db,
-    };
+        computed.rows.concat(),
+    );
     rows.write(output)?;
-    tell(&rows, output, Some(seconds), manner)
+    tell(&rows, output, Some(work), manner)
+}
+
+/// What it took to compute rows.
+struct Work {
+    from_cache: usize,
+    seconds: f64,
 }
 
 /// The sources of a shard: every n-th, so that shards take equally long.
@@ -68,7 +82,7 @@ fn merge(parts: &[PathBuf], output: &Path, manner: Manner) -> Result<()> {
     tell(&whole, output, None, manner)
 }
 
-fn tell(rows: &LossRows, output: &Path, seconds: Option<f64>, manner: Manner) -> Result<()> {
+fn tell(rows: &LossRows, output: &Path, work: Option<Work>, manner: Manner) -> Result<()> {
     ensure!(!rows.sources.is_empty(), "the shard holds no sources");
     let about = &rows.description;
     let mut losses = rows.loss_db.clone();
@@ -79,20 +93,31 @@ fn tell(rows: &LossRows, output: &Path, seconds: Option<f64>, manner: Manner) ->
             "output": output,
             "sources": rows.sources.len(),
             "targets": rows.cell_degrees.len(),
+            "frequency_hz": about.frequency_hz,
+            "directions": about.directions,
             "median_loss_db": median_db,
             "quality": about.quality,
             "beams": about.beams,
             "bearings": about.bearings,
-            "seconds": seconds,
+            "fingerprint": about.fingerprint,
+            "sources_from_cache": work.as_ref().map(|work| work.from_cache),
+            "seconds": work.map(|work| work.seconds),
         }));
     }
     if !manner.quiet {
-        let time = seconds.map_or_else(String::new, |seconds| format!(" in {seconds:.1} s"));
+        let time = match work {
+            None => String::new(),
+            Some(Work { from_cache: 0, seconds }) => format!(" in {seconds:.1} s"),
+            Some(Work { from_cache, seconds }) => {
+                format!(" in {seconds:.1} s, {from_cache} rows of them from the cache")
+            }
+        };
         super::say(format_args!(
-            "{}: {} × {} losses{time} ({}: {} beams, {} bearings), median {median_db:.1} dB",
+            "{}: {} × {} losses at {} Hz{time} ({}: {} beams, {} bearings), median {median_db:.1} dB",
             output.display(),
             rows.sources.len(),
             rows.cell_degrees.len(),
+            about.frequency_hz,
             about.quality,
             about.beams,
             about.bearings,

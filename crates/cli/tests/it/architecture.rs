@@ -14,14 +14,15 @@ const CRATES: [(&str, &[&str]); 5] = [
 ];
 
 /// Which room of `sonarfleet` may use which.
-const ROOMS: [(&str, &[&str]); 8] = [
+const ROOMS: [(&str, &[&str]); 9] = [
+    ("fingerprint", &[]),
     ("grid", &[]),
     ("npz", &[]),
-    ("sonar", &["grid", "npz", "random"]),
+    ("sonar", &["fingerprint", "grid", "npz", "random"]),
     ("placement", &["grid", "npz", "random", "sonar"]),
     ("navigation", &["grid", "npz", "random", "record"]),
     ("assignment", &["npz", "random"]),
-    ("record", &["grid"]),
+    ("record", &["fingerprint", "grid"]),
     ("scenario", &["assignment", "grid", "navigation", "npz", "placement", "sonar"]),
 ];
 

@@ -1,10 +1,7 @@
 //! `sonarfleet run`: whole runs, their results and their reproducibility.
 
-use crate::program::{SCENARIO, assert_same_results, json, sonarfleet, succeed, write};
-use std::path::Path;
+use crate::program::{SCENARIO, assert_same_results, json, sonarfleet, succeed, wait_for, write};
 use std::process::Stdio;
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 #[test]
 fn a_seed_gives_the_same_bytes_on_one_thread_and_on_two() {
@@ -12,7 +9,7 @@ fn a_seed_gives_the_same_bytes_on_one_thread_and_on_two() {
     write(home.path(), "test.toml", SCENARIO);
     for threads in ["1", "2"] {
         let arguments = ["run", "test.toml", "--quiet", "--output", threads, "--threads", threads];
-        succeed(home.path(), &arguments);
+        succeed(home.path(), &[&arguments[..], &["--no-cache"]].concat());
     }
     assert_same_results(&home.path().join("1"), &home.path().join("2"));
 }
@@ -59,31 +56,25 @@ fn a_run_says_what_came_of_it_and_leaves_everything_promised() {
 fn a_killed_run_resumes_and_ends_as_if_never_killed() {
     let home = tempfile::tempdir().unwrap();
     write(home.path(), "test.toml", SCENARIO);
-    succeed(home.path(), &["run", "test.toml", "--quiet", "--output", "whole"]);
+    let quietly = ["--quiet", "--no-cache"];
+    succeed(home.path(), &[&["run", "test.toml", "--output", "whole"], &quietly[..]].concat());
 
     let mut killed = sonarfleet(home.path())
-        .args(["run", "test.toml", "--quiet", "--output", "killed"])
+        .args(["run", "test.toml", "--output", "killed"])
+        .args(quietly)
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
     let checkpoint = home.path().join("killed.partial/checkpoint.bin");
-    wait_for(&checkpoint);
+    wait_for(|| checkpoint.exists());
     killed.kill().unwrap();
     killed.wait().unwrap();
     // It may have been faster than us; then there is nothing to resume.
     if !home.path().join("killed").exists() {
-        let resume = ["run", "test.toml", "--quiet", "--output", "killed", "--resume"];
-        succeed(home.path(), &resume);
+        let resume = ["run", "test.toml", "--output", "killed", "--resume"];
+        succeed(home.path(), &[&resume, &quietly[..]].concat());
     }
     assert_same_results(&home.path().join("whole"), &home.path().join("killed"));
-}
-
-fn wait_for(path: &Path) {
-    let deadline = Instant::now() + Duration::from_mins(2);
-    while !path.exists() {
-        assert!(Instant::now() < deadline, "{} never came", path.display());
-        sleep(Duration::from_millis(5));
-    }
 }
 
 #[test]
@@ -95,7 +86,7 @@ fn files_of_the_synthetic_ocean_give_the_embedded_results() {
         files = [\"d/thetao.nc\", \"d/so.nc\", \"d/uo_vo.nc\"]\nbathymetry = \"d/bathymetry.nc\"\n";
     write(home.path(), "files.toml", &format!("{SCENARIO}\n{files}"));
     let metrics = |scenario: &str, output: &str| {
-        succeed(home.path(), &["run", scenario, "--quiet", "--output", output]);
+        succeed(home.path(), &["run", scenario, "--quiet", "--no-cache", "--output", output]);
         std::fs::read_to_string(home.path().join(output).join("metrics.jsonl")).unwrap()
     };
     assert_eq!(metrics("test.toml", "synthetic"), metrics("files.toml", "files"));

@@ -5,30 +5,6 @@ use sonarfleet::scenario::ScenarioFile;
 use std::fs;
 
 #[test]
-fn shards_of_a_loss_table_merge_into_the_whole() {
-    let home = tempfile::tempdir().unwrap();
-    let home = home.path();
-    write(home, "test.toml", SCENARIO);
-    succeed(home, &["tl", "test.toml", "--output", "whole.nc", "--quiet"]);
-    for (shard, part) in [("1/2", "b.nc"), ("2/2", "a.nc")] {
-        succeed(home, &["tl", "test.toml", "--shard", shard, "--output", part, "--quiet"]);
-    }
-    succeed(home, &["tl", "merge", "a.nc", "b.nc", "--output", "merged.nc", "--quiet"]);
-    let bytes = |name: &str| fs::read(home.join(name)).unwrap();
-    assert_eq!(bytes("whole.nc"), bytes("merged.nc"));
-
-    // A run and a placement on the table in the file are those on the computed one.
-    let place = |extra: &[&str]| {
-        let mut said = json(home, &[&["place", "test.toml"], extra].concat());
-        said["seconds"].take();
-        said
-    };
-    assert_eq!(place(&[]), place(&["--loss", "whole.nc"]));
-    succeed(home, &["tl", "test.toml", "--output", "whole.npz", "--quiet"]);
-    assert_eq!(place(&[]), place(&["--loss", "whole.npz"]));
-}
-
-#[test]
 fn placement_posts_become_a_matrix_and_an_assignment() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();

@@ -4,4 +4,5 @@ mod architecture;
 mod bad_input;
 mod closed_loop;
 mod links;
+mod loss_tables;
 mod program;

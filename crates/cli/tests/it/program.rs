@@ -3,6 +3,8 @@
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// A mission of two epochs that takes a second or two.
 pub(crate) const SCENARIO: &str = r#"
@@ -40,10 +42,10 @@ shape = "blobs"
 blobs = [{ centre_km = [2.0, 4.0], width_km = 1.0, total = 3.0 }]
 "#;
 
-/// The program, ready for arguments.
+/// The program, ready for arguments. What it keeps, it keeps in `cache` in its home.
 pub(crate) fn sonarfleet(home: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sonarfleet"));
-    command.current_dir(home);
+    command.current_dir(home).env("SONARFLEET_CACHE", home.join("cache"));
     command
 }
 
@@ -98,5 +100,14 @@ pub(crate) fn assert_same_results(a: &Path, b: &Path) {
     for name in RESULTS {
         let read = |directory: &Path| std::fs::read(directory.join(name)).unwrap();
         assert!(read(a) == read(b), "{name} differs between {} and {}", a.display(), b.display());
+    }
+}
+
+/// Waits for something that must come true.
+pub(crate) fn wait_for(come: impl Fn() -> bool) {
+    let deadline = Instant::now() + Duration::from_mins(2);
+    while !come() {
+        assert!(Instant::now() < deadline, "it never came");
+        sleep(Duration::from_millis(5));
     }
 }

@@ -38,6 +38,20 @@ function drawTiles() {
   );
 }
 
+// How a transmission-loss table was made.
+function lossRows(name, table) {
+  return [
+    ["group", name],
+    ["Frequency", (m) => withUnit(table(m).frequency_hz, 0, "Hz")],
+    ["Directions", (m) => (table(m).both_directions ? "mean of both" : "one")],
+    ["Beams × bearings", (m) => `${table(m).beams} × ${table(m).bearings}`],
+    ["Largest range", (m) => withUnit(table(m).range_m / 1000, 1, "km")],
+    ["Median difference from fine settings", (m) => withUnit(table(m).median_error_db, 2, "dB")],
+    ["90th percentile of the difference", (m) => withUnit(table(m).p90_error_db, 2, "dB")],
+    ["Sources compared", (m) => String(table(m).sampled_sources)],
+  ];
+}
+
 function drawNumbers() {
   const rows = [
     ["group", "Layout"],
@@ -57,12 +71,10 @@ function drawNumbers() {
     ["Post unreachable", (m) => String(m.unreachable)],
     ["Mean travel time expected", (m) => withUnit(m.mean_travel_time_h, 2, "h")],
     ["Largest travel time expected", (m) => withUnit(m.largest_travel_time_h, 2, "h")],
-    ["group", "Transmission-loss table"],
-    ["Beams × bearings", (m) => `${m.transmission_loss.beams} × ${m.transmission_loss.bearings}`],
-    ["Largest range", (m) => withUnit(m.transmission_loss.range_m / 1000, 1, "km")],
-    ["Median difference from fine settings", (m) => withUnit(m.transmission_loss.median_error_db, 2, "dB")],
-    ["90th percentile of the difference", (m) => withUnit(m.transmission_loss.p90_error_db, 2, "dB")],
-    ["Sources compared", (m) => String(m.transmission_loss.sampled_sources)],
+    ...lossRows("Transmission-loss table", (m) => m.transmission_loss),
+    ...(run.epochs.some((e) => e.metrics.communication_loss)
+      ? lossRows("Transmission-loss table of the links", (m) => m.communication_loss ?? m.transmission_loss)
+      : []),
     ["group", "Wall-clock seconds"],
   ];
   const stages = [...new Set(run.epochs.flatMap((e) => e.seconds.map(([stage]) => stage)))];

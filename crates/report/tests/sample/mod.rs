@@ -144,7 +144,10 @@ fn epoch(
         largest_travel_time_h: reachable().fold(0.0, f64::max),
         arrived: routes.iter().filter(|r| r.arrived).count(),
         unreachable: routes.iter().filter(|r| r.failure.is_some()).count(),
+        communication_loss: None,
         transmission_loss: LossTableMetrics {
+            frequency_hz: 1000.0,
+            both_directions: false,
             beams: 161,
             bearings: 72,
             range_m: 12_000.0,

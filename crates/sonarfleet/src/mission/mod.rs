@@ -1,17 +1,21 @@
 //! The closed loop: the paper's six steps (section 2.2) are six calls, epoch
 //! after epoch.
 
+mod acoustics;
 mod environment;
 mod error;
 mod excerpts;
 mod findings;
+mod loss;
 mod outcome;
 mod stage;
 mod theatre;
 
-pub use environment::{Acoustics, Environment, input};
+pub use acoustics::Acoustics;
+pub use environment::{Environment, input};
 pub use error::MissionError;
 pub use findings::findings;
+pub use loss::EpochLoss;
 pub use stage::{Event, Observer, Stage};
 pub use theatre::Theatre;
 
@@ -21,6 +25,7 @@ use crate::navigation::{Plan, Planner, Route, RouteEnd, TravelTimes, Waters};
 use crate::placement::{Budget, Placement, Solver};
 use crate::record::EpochRecord;
 use crate::scenario::Scenario;
+use crate::sonar::transmission_loss::LossCache;
 use outcome::{Movement, Outcome};
 use stage::Clock;
 
@@ -34,6 +39,8 @@ pub struct Mission<'a> {
     pub solver: &'a dyn Solver,
     /// How travel is planned.
     pub planner: &'a dyn Planner,
+    /// Where computed transmission loss is kept; nowhere if none.
+    pub loss_cache: Option<&'a LossCache>,
 }
 
 impl Mission<'_> {
@@ -69,13 +76,10 @@ impl Mission<'_> {
         epoch: usize,
         clock: &mut Clock<'_>,
     ) -> Result<Environment, MissionError> {
-        let mut environment = clock.time(Stage::TransmissionLoss, |progress| {
-            Environment::at(self.scenario, self.theatre, epoch, progress)
-        })?;
+        let mut environment =
+            Environment::timed(self.scenario, self.theatre, epoch, self.loss_cache, clock)?;
         if self.scenario.file.transmission_loss.error_sample > 0 {
-            clock.time(Stage::LossError, |progress| {
-                environment.estimate_loss_error(self.scenario, self.theatre, progress)
-            })?;
+            environment.estimate_loss_error(self.scenario, self.theatre, self.loss_cache, clock)?;
         }
         Ok(environment)
     }

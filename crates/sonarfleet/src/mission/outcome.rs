@@ -64,7 +64,8 @@ impl Mission<'_> {
             largest_travel_time_h: reachable.iter().copied().fold(f64::NAN, f64::max),
             arrived: movement.travelled.iter().filter(|route| route.arrived()).count(),
             unreachable: expected_h.len() - reachable.len(),
-            transmission_loss: environment.loss_metrics,
+            transmission_loss: environment.loss.metrics,
+            communication_loss: environment.communication_loss.as_ref().map(|loss| loss.metrics),
             evaluations: placement.evaluations,
             placement_history: placement.history.clone(),
         };
@@ -79,7 +80,7 @@ impl Mission<'_> {
             random_detection_probability: problem.network_detection(&random.cells),
             random_layout: random.cells,
             loss_source,
-            loss_db: environment.loss.row(loss_source).to_vec(),
+            loss_db: environment.loss.table.row(loss_source).to_vec(),
             sound_speed: excerpts::sound_speed(
                 &environment.state,
                 &theatre.bathymetry,

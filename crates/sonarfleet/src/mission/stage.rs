@@ -9,8 +9,12 @@ use std::time::Instant;
 pub enum Stage {
     /// Transmission loss between all cells.
     TransmissionLoss,
+    /// The same at the frequency of the links, where it is another.
+    CommunicationLoss,
     /// Comparison of a sample of sources with `fine` settings.
     LossError,
+    /// The same for the table of the links.
+    CommunicationLossError,
     /// The target layout.
     Placement,
     /// Travel times of all vehicles to all posts.
@@ -26,7 +30,9 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::TransmissionLoss => "transmission loss",
+            Self::CommunicationLoss => "communication loss",
             Self::LossError => "loss error",
+            Self::CommunicationLossError => "communication loss error",
             Self::Placement => "placement",
             Self::TravelTimes => "travel times",
             Self::Assignment => "assignment",

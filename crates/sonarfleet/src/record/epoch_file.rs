@@ -21,6 +21,7 @@ pub fn write_epoch(path: &Path, run: &RunRecord, epoch: &EpochRecord) -> Result<
 
 fn attributes(file: &mut Dataset, run: &RunRecord, epoch: &EpochRecord) {
     let numbers = &epoch.metrics;
+    let links = numbers.communication_loss.unwrap_or(numbers.transmission_loss);
     for (name, value) in [("source", &run.ocean_source), ("time", &epoch.time)] {
         file.add_attribute(Attribute::text(name, value));
     }
@@ -37,6 +38,8 @@ fn attributes(file: &mut Dataset, run: &RunRecord, epoch: &EpochRecord) {
         ("upper_bound", numbers.upper_bound),
         ("detection_utility_at_start", numbers.detection_utility_at_start),
         ("detection_utility_at_end", numbers.detection_utility_at_end),
+        ("frequency_hz", numbers.transmission_loss.frequency_hz),
+        ("communication_frequency_hz", links.frequency_hz),
         ("transmission_loss_source_cell", epoch.loss_source.0 as f64),
     ] {
         file.add_attribute(Attribute::number(name, value));

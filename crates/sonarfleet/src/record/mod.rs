@@ -201,8 +201,10 @@ pub struct EpochMetrics {
     pub arrived: usize,
     /// Vehicles whose post cannot be reached.
     pub unreachable: usize,
-    /// Beams, bearings and range of the transmission-loss table, and its error estimate.
+    /// How the transmission-loss table was made, and its error estimate.
     pub transmission_loss: LossTableMetrics,
+    /// The same of the table for the links; none if they share that of detection.
+    pub communication_loss: Option<LossTableMetrics>,
     /// Placement proposals evaluated.
     pub evaluations: u64,
     /// Best feasible `J_d` against evaluations.
@@ -213,6 +215,10 @@ pub struct EpochMetrics {
 /// `fine` settings on a sample of sources.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LossTableMetrics {
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Whether every loss is the mean of both directions.
+    pub both_directions: bool,
     /// Beams per slice.
     pub beams: usize,
     /// Bearings per source.
@@ -228,9 +234,12 @@ pub struct LossTableMetrics {
 }
 
 impl LossTableMetrics {
-    /// Of a table that was made elsewhere: nothing is known.
-    pub const fn from_file() -> Self {
+    /// Of a table that was made elsewhere: nothing is known but the frequency, Hz, for
+    /// which it is used.
+    pub const fn from_file(frequency_hz: f64) -> Self {
         Self {
+            frequency_hz,
+            both_directions: false,
             beams: 0,
             bearings: 0,
             range_m: f64::NAN,

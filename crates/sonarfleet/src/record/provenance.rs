@@ -1,9 +1,9 @@
 //! Where a run comes from: the resolved scenario, the seed, and the inputs' hashes.
 
 use super::RecordError;
+use crate::fingerprint::hexadecimal;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use std::fmt::Write;
 use std::path::PathBuf;
 
 /// What a run was made of.
@@ -51,11 +51,4 @@ impl Provenance {
         let fingerprint = hexadecimal(&all.finalize());
         Ok(Self { version, seed, scenario, inputs, fingerprint })
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}"); // writing to a String cannot fail
-        text
-    })
 }

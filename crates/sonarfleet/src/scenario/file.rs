@@ -3,6 +3,7 @@
 
 use super::ScenarioError;
 use crate::sonar::prior::LineCorridor;
+use crate::sonar::transmission_loss::Directions;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -231,7 +232,7 @@ impl Default for FleetSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SonarSection {
-    /// Frequency, Hz.
+    /// Frequency of what is listened for, Hz.
     pub frequency_hz: f64,
     /// Source level of the target, dB re 1 µPa at 1 m.
     pub source_level_db: f64,
@@ -285,6 +286,10 @@ pub enum DetectionSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CommunicationsSection {
+    /// Frequency of the modems, Hz; absent: the sonar's, so that one table of
+    /// transmission loss serves both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
     /// Source level of the modems, dB re 1 µPa at 1 m.
     pub source_level_db: f64,
     /// Noise level at the modems, dB re 1 µPa.
@@ -300,6 +305,7 @@ pub struct CommunicationsSection {
 impl Default for CommunicationsSection {
     fn default() -> Self {
         Self {
+            frequency_hz: None,
             source_level_db: 145.0,
             noise_level_db: 63.0,
             packet_bits: 256,
@@ -375,8 +381,13 @@ pub struct TransmissionLossSection {
     /// Largest range of a slice, km; absent: to the region's edge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub maximum_range_km: Option<f64>,
+    /// Whether a loss is that of one direction or the mean of both.
+    pub directions: Directions,
     /// Tables (`.nc` or `.npz`), one per epoch, relative to the scenario; empty: computed.
     pub files: Vec<PathBuf>,
+    /// Tables for the links between vehicles, likewise; empty: those of detection at the
+    /// same frequency, or else computed.
+    pub communication_files: Vec<PathBuf>,
     /// Sources recomputed at `fine` settings to estimate the error of a table; 0: none.
     pub error_sample: usize,
 }
@@ -386,7 +397,9 @@ impl Default for TransmissionLossSection {
         Self {
             quality: QualityName::Standard,
             maximum_range_km: None,
+            directions: Directions::One,
             files: Vec::new(),
+            communication_files: Vec::new(),
             error_sample: 4,
         }
     }

@@ -22,7 +22,7 @@ use crate::placement::Method;
 use crate::sonar::detection::PassiveSonar;
 use crate::sonar::link::Modem;
 use crate::sonar::prior::TargetPrior;
-use crate::sonar::transmission_loss::Quality;
+use crate::sonar::transmission_loss::{Directions, Quality};
 use jiff::{SignedDuration, Timestamp};
 use sonarfleet_acoustics::environment::FluidHalfSpace;
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
@@ -74,12 +74,16 @@ pub struct Scenario {
     pub connectivity_threshold: f64,
     /// The seabed.
     pub seabed: FluidHalfSpace,
-    /// Frequency of detection and communication, Hz.
+    /// Frequency of detection, Hz.
     pub frequency_hz: f64,
+    /// Frequency of the links between vehicles, Hz.
+    pub communication_frequency_hz: f64,
     /// Largest range at which sound is followed, metres; none: to the region's edge.
     pub maximum_range_m: Option<f64>,
     /// How much work goes into the transmission-loss table.
     pub quality: Quality,
+    /// Whether a loss is that of one direction or the mean of both.
+    pub directions: Directions,
     /// Placement solver.
     pub method: Method,
     /// Travel planner.
@@ -132,6 +136,27 @@ pub struct EpochPlan {
     pub prior: TargetPrior,
     /// Transmission-loss table made elsewhere.
     pub loss_file: Option<PathBuf>,
+    /// Table for the links between vehicles made elsewhere.
+    pub communication_loss_file: Option<PathBuf>,
+}
+
+impl EpochPlan {
+    /// The table made elsewhere for a purpose.
+    pub fn file_of(&self, purpose: LossUse) -> Option<&Path> {
+        match purpose {
+            LossUse::Detection => self.loss_file.as_deref(),
+            LossUse::Communication => self.communication_loss_file.as_deref(),
+        }
+    }
+}
+
+/// What a table of transmission loss is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LossUse {
+    /// Whether a target is heard.
+    Detection,
+    /// Whether vehicles hear each other.
+    Communication,
 }
 
 impl PlannerName {
@@ -179,6 +204,21 @@ impl Scenario {
         self.planner.planner(self.time_optimal)
     }
 
+    /// Frequency at which sound is followed for a purpose, Hz.
+    pub const fn loss_frequency_hz(&self, purpose: LossUse) -> f64 {
+        match purpose {
+            LossUse::Detection => self.frequency_hz,
+            LossUse::Communication => self.communication_frequency_hz,
+        }
+    }
+
+    /// Whether the links between vehicles have a table of their own in an epoch: at
+    /// another frequency than detection's, or from a file.
+    pub fn has_communication_table(&self, epoch: usize) -> bool {
+        self.communication_frequency_hz.to_bits() != self.frequency_hz.to_bits()
+            || self.epochs[epoch].communication_loss_file.is_some()
+    }
+
     /// Seed of the random choices of one epoch.
     pub const fn seed_of(&self, epoch: usize) -> u64 {
         self.file.seed.wrapping_add(epoch as u64)
@@ -195,6 +235,7 @@ impl Scenario {
         file.ocean.bathymetry.iter_mut().for_each(here);
         file.deployable.exclusions.iter_mut().for_each(here);
         file.transmission_loss.files.iter_mut().for_each(here);
+        file.transmission_loss.communication_files.iter_mut().for_each(here);
         for prior in &mut file.prior {
             if let PriorSection::File { path } = prior {
                 here(path);
@@ -206,6 +247,7 @@ impl Scenario {
     /// Every file that a run of the scenario reads.
     pub fn input_files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.transmission_loss.files.clone();
+        files.extend(self.file.transmission_loss.communication_files.iter().cloned());
         files.extend(self.file.ocean.files.iter().cloned());
         files.extend(self.file.ocean.bathymetry.iter().cloned());
         files.extend(self.file.deployable.exclusions.iter().cloned());

@@ -1,6 +1,7 @@
 //! From the ocean to what sound meets: the waters around a region on a local
 //! grid, and vertical sections cut out of them along any bearing.
 
+use crate::fingerprint::Fingerprint;
 use crate::grid::Position;
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::environment::{
@@ -18,6 +19,9 @@ const FLOOR_SPACING_M: f64 = 225.0;
 /// The sea floor is nowhere taken shallower than this, metres: on land a sliver
 /// of water is left, in which sound dies.
 const SHALLOWEST_M: f64 = 1.0;
+
+/// Absorption of sound by the water.
+const ABSORPTION: Absorption = Absorption::Thorp;
 
 /// How far behind a source the sea is known, metres: slopes send sound back.
 pub const BEHIND_M: f64 = 3000.0;
@@ -174,6 +178,17 @@ impl Waters {
         }
     }
 
+    /// Adds to a fingerprint everything that decides what sound meets.
+    pub(super) fn add_to(&self, fingerprint: Fingerprint) -> Fingerprint {
+        let Self { columns, level_m, speed_m_s, soundings, floor_m, bottom } = self;
+        fingerprint
+            .text(&format!("{columns:?} {soundings:?} {BEHIND_M} {COLUMN_SPACING_M}"))
+            .numbers(level_m)
+            .numbers(speed_m_s)
+            .numbers(floor_m)
+            .text(&format!("{bottom:?} {ABSORPTION:?}"))
+    }
+
     /// Depth of the sea floor at a point, metres.
     pub fn floor_m(&self, point: Position) -> f64 {
         self.soundings.corners(point).iter().map(|&(node, w)| w * self.floor_m[node]).sum()
@@ -222,7 +237,7 @@ impl Waters {
         let depth_m = range_m.iter().map(|&range| self.floor_m(at(range))).collect();
         let floor = Interface::new(range_m, depth_m)?;
         let mut section = Section::new(sound_speed, floor, self.bottom.clone())?;
-        section.absorption = Absorption::Thorp;
+        section.absorption = ABSORPTION;
         Ok(section)
     }
 }

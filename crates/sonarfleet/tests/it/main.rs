@@ -1,6 +1,7 @@
 //! Integration tests of the system.
 
 mod assignment;
+mod loss_cache;
 mod navigation;
 mod navigation_instance;
 mod placement;

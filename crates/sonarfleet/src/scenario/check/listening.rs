@@ -12,6 +12,8 @@ use crate::sonar::noise::NoiseLevel;
 /// Bounds of levels, dB re 1 µPa: from the quietest ocean to the loudest machine.
 const SOURCE_LEVELS_DB: (f64, f64) = (60.0, 260.0);
 const NOISE_LEVELS_DB: (f64, f64) = (10.0, 150.0);
+/// Bounds of frequencies, Hz: below, rays are no longer sound; above, sound dies in metres.
+const FREQUENCIES_HZ: (f64, f64) = (10.0, 200_000.0);
 const LEVEL_UNIT: &str = "dB re 1 µPa";
 
 pub(super) fn sonar(
@@ -58,6 +60,19 @@ pub(super) fn sonar(
         )?,
         model,
     })
+}
+
+/// Frequencies of detection and of communication, Hz.
+pub(super) fn frequencies_hz(
+    checker: &Checker<'_>,
+    sonar: &SonarSection,
+    communications: &CommunicationsSection,
+) -> Result<(f64, f64), ScenarioError> {
+    let detection =
+        checker.within("sonar.frequency_hz", sonar.frequency_hz, FREQUENCIES_HZ, "Hz")?;
+    let key = "communications.frequency_hz";
+    let own = communications.frequency_hz.map(|hz| checker.within(key, hz, FREQUENCIES_HZ, "Hz"));
+    Ok((detection, own.transpose()?.unwrap_or(detection)))
 }
 
 pub(super) fn modem(

@@ -25,6 +25,8 @@ pub(super) fn check(
     let grid = water::grid(&checker, &file.region, &frame)?;
     let domain = planning::domain(&checker, &file.navigation, &grid)?;
     let place = fleet::Place { frame: &frame, grid: &grid, domain: &domain };
+    let (frequency_hz, communication_frequency_hz) =
+        listening::frequencies_hz(&checker, &file.sonar, &file.communications)?;
     Ok(Scenario {
         ocean: water::ocean(&checker, &file, region)?,
         sound_speed: water::sound_speed(file.ocean.sound_speed),
@@ -45,14 +47,11 @@ pub(super) fn check(
             (0.0, file.fleet.vehicles as f64),
             "(τ; at most the number of vehicles)",
         )?,
-        frequency_hz: checker.within(
-            "sonar.frequency_hz",
-            file.sonar.frequency_hz,
-            (10.0, 200_000.0),
-            "Hz",
-        )?,
+        frequency_hz,
+        communication_frequency_hz,
         maximum_range_m: planning::maximum_range_m(&checker, &file.transmission_loss)?,
         quality: planning::quality(file.transmission_loss.quality),
+        directions: file.transmission_loss.directions,
         method: planning::method(&checker, &file.placement)?,
         planner: file.navigation.planner,
         time_optimal: planning::time_optimal(&checker, &file.navigation)?,

@@ -12,6 +12,7 @@ use crate::scenario::{
 };
 use crate::sonar::prior::{GaussianBlob, TargetPrior};
 use crate::sonar::transmission_loss::Quality;
+use std::path::PathBuf;
 
 pub(super) fn domain(
     checker: &Checker<'_>,
@@ -33,8 +34,14 @@ pub(super) fn epochs(
     let epoch_h = checker.within("time.epoch_h", file.time.epoch_h, (0.1, 240.0), "h")?;
     let snapshots = &file.time.snapshot_h;
     one_per_epoch(checker, "time.snapshot_h", snapshots.len(), count)?;
-    let tables = &file.transmission_loss.files;
-    one_per_epoch(checker, "transmission_loss.files", tables.len(), count)?;
+    let detection =
+        tables(checker, "transmission_loss.files", &file.transmission_loss.files, count)?;
+    let communication = tables(
+        checker,
+        "transmission_loss.communication_files",
+        &file.transmission_loss.communication_files,
+        count,
+    )?;
     let priors = file
         .prior
         .iter()
@@ -46,18 +53,26 @@ pub(super) fn epochs(
     (0..count)
         .map(|epoch| {
             let start_h = epoch as f64 * epoch_h;
-            let loss_file = tables
-                .get(epoch)
-                .map(|path| checker.existing("transmission_loss.files", path))
-                .transpose()?;
             Ok(EpochPlan {
                 start_h,
                 snapshot_h: snapshots.get(epoch).copied().unwrap_or(start_h),
                 prior: priors.get(epoch).unwrap_or(last).clone(),
-                loss_file,
+                loss_file: detection.get(epoch).cloned(),
+                communication_loss_file: communication.get(epoch).cloned(),
             })
         })
         .collect()
+}
+
+/// Files of tables, none or one per epoch.
+fn tables(
+    checker: &Checker<'_>,
+    key: &'static str,
+    files: &[PathBuf],
+    epochs: usize,
+) -> Result<Vec<PathBuf>, ScenarioError> {
+    one_per_epoch(checker, key, files.len(), epochs)?;
+    files.iter().map(|path| checker.existing(key, path)).collect()
 }
 
 fn one_per_epoch(

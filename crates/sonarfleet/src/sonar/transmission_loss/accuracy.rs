@@ -1,4 +1,3 @@
-use super::quality::Quality;
 use super::table::{LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows};
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
@@ -23,8 +22,34 @@ pub struct ErrorEstimate {
     pub p99_db: f64,
 }
 
-/// Recomputes the rows of some sources with [`Quality::Fine`] and compares.
-/// Without a source or a loss to compare, the differences are NaN.
+impl ErrorEstimate {
+    /// Compares rows with those of [`Quality::Fine`](super::Quality::Fine) of the same sources. Without a
+    /// source or a loss to compare, the differences are NaN.
+    pub fn between(rows: &[impl AsRef<[f32]>], fine: &[impl AsRef<[f32]>]) -> Self {
+        let mut differences: Vec<f64> = rows
+            .iter()
+            .zip(fine)
+            .flat_map(|(row, fine)| row.as_ref().iter().zip(fine.as_ref()))
+            .filter(|(_, fine)| **fine < COMPARED_LOSS_DB)
+            .map(|(loss, fine)| f64::from((loss - fine).abs()))
+            .collect();
+        differences.sort_by(f64::total_cmp);
+        let quantile = |q: f64| match differences.len() {
+            0 => f64::NAN,
+            count => differences[((count - 1) as f64 * q).round() as usize],
+        };
+        Self {
+            sources: rows.len(),
+            compared: differences.len(),
+            median_db: quantile(0.5),
+            p90_db: quantile(0.9),
+            p99_db: quantile(0.99),
+        }
+    }
+}
+
+/// Recomputes the rows of some sources with
+/// [`Quality::Fine`](super::Quality::Fine) and compares.
 ///
 /// # Errors
 /// As of computing the table.
@@ -36,25 +61,7 @@ pub fn estimate_error(
     sources: &[CellId],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<ErrorEstimate, TransmissionLossError> {
-    let fine = LossTableSettings { numerics: Quality::Fine.numerics(), ..settings.clone() };
-    let rows = compute_rows(waters, grid, &fine, sources, progress)?;
-    let mut differences: Vec<f64> = sources
-        .iter()
-        .zip(&rows)
-        .flat_map(|(&source, fine)| table.row(source).iter().zip(fine))
-        .filter(|(_, fine)| **fine < COMPARED_LOSS_DB)
-        .map(|(loss, fine)| f64::from((loss - fine).abs()))
-        .collect();
-    differences.sort_by(f64::total_cmp);
-    let quantile = |q: f64| match differences.len() {
-        0 => f64::NAN,
-        count => differences[((count - 1) as f64 * q).round() as usize],
-    };
-    Ok(ErrorEstimate {
-        sources: sources.len(),
-        compared: differences.len(),
-        median_db: quantile(0.5),
-        p90_db: quantile(0.9),
-        p99_db: quantile(0.99),
-    })
+    let fine = compute_rows(waters, grid, &settings.fine(), sources, progress)?;
+    let rows: Vec<&[f32]> = sources.iter().map(|&source| table.row(source)).collect();
+    Ok(ErrorEstimate::between(&rows, &fine))
 }

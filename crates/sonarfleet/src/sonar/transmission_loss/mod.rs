@@ -2,13 +2,18 @@
 //! around each source.
 
 mod accuracy;
+mod cache;
+mod chunk;
+mod directions;
 mod quality;
 mod row;
 mod table;
 
 pub use accuracy::{ErrorEstimate, estimate_error};
+pub use cache::{LossCache, table_fingerprint};
+pub use directions::Directions;
 pub use quality::{BeamClass, Numerics, Quality, UnknownQuality};
 pub use table::{
-    LARGEST_LOSS_DB, LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows,
-    compute_transmission_loss,
+    LARGEST_LOSS_DB, LossTableRows, LossTableSettings, TransmissionLossError,
+    TransmissionLossTable, compute_rows, compute_transmission_loss, rows_with_cache,
 };

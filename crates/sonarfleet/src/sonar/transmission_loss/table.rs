@@ -1,4 +1,5 @@
-use super::quality::Numerics;
+use super::cache::{LossCache, table_fingerprint};
+use super::quality::{Numerics, Quality};
 use super::row::RowComputer;
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
@@ -70,6 +71,12 @@ pub enum TransmissionLossError {
 }
 
 impl LossTableSettings {
+    /// The same at the quality that others are compared with.
+    #[must_use]
+    pub fn fine(&self) -> Self {
+        Self { numerics: Quality::Fine.numerics(), ..self.clone() }
+    }
+
     fn check(&self) -> Result<(), TransmissionLossError> {
         for (setting, found) in [
             ("the frequency", self.frequency_hz),
@@ -82,6 +89,15 @@ impl LossTableSettings {
         }
         Ok(())
     }
+}
+
+/// Rows of a table, and how many of them had been computed before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LossTableRows {
+    /// Losses from each source, in the order of the sources, to all cells, dB.
+    pub rows: Vec<Vec<f32>>,
+    /// How many were read from the cache.
+    pub from_cache: usize,
 }
 
 /// Computes the table of a region's waters. `progress` is told how many sources
@@ -113,19 +129,53 @@ pub fn compute_rows(
     sources: &[CellId],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Vec<f32>>, TransmissionLossError> {
+    Ok(rows_with_cache(waters, grid, settings, sources, None, progress)?.rows)
+}
+
+/// The rows of some sources, in their order, as [`compute_rows`] gives them: those
+/// in the cache are read, the others computed and put there while it goes on.
+/// `progress` is first told how many were there.
+///
+/// # Errors
+/// If a setting is not positive. A cache that does not work is no error: it is
+/// warned of.
+pub fn rows_with_cache(
+    waters: &Waters,
+    grid: &SurveillanceGrid,
+    settings: &LossTableSettings,
+    sources: &[CellId],
+    cache: Option<&LossCache>,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<LossTableRows, TransmissionLossError> {
     settings.check()?;
+    let entry =
+        cache.map(|cache| cache.open(table_fingerprint(waters, grid, settings), grid.cell_count()));
+    let kept = |source: CellId| entry.as_ref().and_then(|entry| entry.row(source));
+    let from_cache = sources.iter().filter(|&&source| kept(source).is_some()).count();
+    progress(from_cache, sources.len());
     let slice_error =
         |source_cell| move |reason| TransmissionLossError::Slice { source_cell, reason };
     let computer = RowComputer::new(waters, grid, settings).map_err(slice_error(CellId(0)))?;
-    let done = AtomicUsize::new(0);
-    sources
+    let done = AtomicUsize::new(from_cache);
+    let rows = sources
         .par_iter()
         .map(|&source| {
+            if let Some(row) = kept(source) {
+                return Ok(row.to_vec());
+            }
             let row = computer.row(source).map_err(slice_error(source))?;
+            if let Some(entry) = &entry {
+                entry.keep(source, &row);
+            }
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, sources.len());
             Ok(row)
         })
-        .collect()
+        .collect::<Result<_, _>>()?;
+    if let Some(entry) = entry {
+        tracing::info!(from_cache, sources = sources.len(), cache = %entry.directory().display());
+        entry.close();
+    }
+    Ok(LossTableRows { rows, from_cache })
 }
 
 #[cfg(test)]
@@ -187,7 +237,7 @@ mod tests {
         assert!(table.loss_db.iter().all(|loss| (40.0..100.0).contains(loss)));
         let mut told = told.into_inner().unwrap();
         told.sort_unstable();
-        assert_eq!(told, (1..=16).map(|done| (done, 16)).collect::<Vec<_>>());
+        assert_eq!(told, (0..=16).map(|done| (done, 16)).collect::<Vec<_>>());
     }
 
     #[test]

@@ -1,0 +1,26 @@
+use super::beam::Place;
+use super::{ContributionSink, Influence};
+use crate::ray::Segment;
+
+impl<S: ContributionSink> Influence<'_, S> {
+    /// Deposits on the columns of receivers that a segment passes. A receiver below or
+    /// above the ray has its foot on the tangent.
+    pub(super) fn cross_columns(&mut self, segment: &Segment) {
+        let (x0, x1) = (segment.start.x, segment.position(segment.sigma).x);
+        for column in self.stations.columns(x0.min(x1), x0.max(x1)) {
+            let sigma = segment.sigma_at_distance(self.stations.range(column) - x0);
+            let place = Place::new(self.medley, segment, sigma);
+            let reach = self.beam.vertical_reach(self.medley, &place);
+            let depth = place.position.z;
+            for index in self.stations.between(column, depth - reach, depth + reach) {
+                let below = self.stations.depth(index) - depth;
+                let (ahead, across) = (below * place.along.z, (below * place.along.x).abs());
+                if let Some(contribution) =
+                    self.beam.contribution(self.medley, segment, &place, ahead, across)
+                {
+                    self.sink.add(self.stations.receiver(index), &contribution);
+                }
+            }
+        }
+    }
+}
