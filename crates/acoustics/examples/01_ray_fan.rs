@@ -2,10 +2,12 @@
 //!
 //!     cargo run --release -p sonarfleet-acoustics --example 01_ray_fan -- munk-rays.png
 
-mod picture;
+mod paper;
+mod section;
 
-use picture::{Outcome, ground, paper, section};
+use paper::{Outcome, paper};
 use plotters::prelude::*;
+use section::{ground, section};
 use sonarfleet_acoustics::environment::{Boundary, Interface, Seabed, Section, SoundSpeedField};
 use sonarfleet_acoustics::field::{LaunchFan, Source, TraceSettings};
 use sonarfleet_acoustics::ray::trace;

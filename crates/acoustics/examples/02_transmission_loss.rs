@@ -5,10 +5,12 @@
 //!
 //! The environments are BELLHOP cases of the tests; only their receivers are others.
 
-mod picture;
+mod paper;
+mod section;
 
-use picture::{Outcome, ground, paper, section};
+use paper::{Outcome, paper};
 use plotters::prelude::*;
+use section::{ground, section};
 use sonarfleet_acoustics::bellhop::read_case;
 use sonarfleet_acoustics::field::Receivers;
 use sonarfleet_acoustics::model::{Case, Native, Output, PropagationModel};
@@ -83,7 +85,7 @@ fn colour(loss_db: f64) -> RGBColor {
     RGBColor(part(0), part(2), part(4))
 }
 
-fn draw_scale(area: &picture::Paper<'_>) -> Outcome<()> {
+fn draw_scale(area: &paper::Paper<'_>) -> Outcome<()> {
     let (strong, faint) = LOSS_DB;
     let mut chart = ChartBuilder::on(area)
         .margin_top(50)

@@ -3,9 +3,9 @@
 //!
 //!     cargo run --release -p sonarfleet-acoustics --example 03_arrivals -- arrivals.png
 
-mod picture;
+mod paper;
 
-use picture::{Outcome, paper};
+use paper::{Outcome, paper};
 use plotters::prelude::*;
 use sonarfleet_acoustics::bellhop::read_case;
 use sonarfleet_acoustics::field::{Arrival, Receivers};
@@ -54,7 +54,10 @@ fn main() -> Outcome<()> {
     let floor_db = strongest_db - DYNAMIC_RANGE_DB;
     let sheet = paper(&path, 1000, 380)?;
     let mut chart = ChartBuilder::on(&sheet)
-        .caption("What arrives 6 km down the slope, at 200 m", ("sans-serif", 20))
+        .caption(
+            "Arrivals 6 km down the slope: no bottom bounce (orange), one (light), more (dark)",
+            ("sans-serif", 20),
+        )
         .margin(14)
         .x_label_area_size(44)
         .y_label_area_size(66)

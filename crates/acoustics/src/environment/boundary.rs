@@ -90,7 +90,12 @@ impl ElasticHalfSpace {
         shear_speed_m_s: f64,
         shear_attenuation_db_wavelength: f64,
     ) -> Result<Self, AcousticsError> {
-        within("the shear speed of a half-space", "positive", shear_speed_m_s, shear_speed_m_s > 0.0)?;
+        within(
+            "the shear speed of a half-space",
+            "positive",
+            shear_speed_m_s,
+            shear_speed_m_s > 0.0,
+        )?;
         within(
             "the shear attenuation of a half-space",
             "zero or positive",

@@ -12,11 +12,7 @@ pub(super) fn spline_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
         1 => return vec![secant[0]; 2],
         2 => {
             let bend = (secant[1] - secant[0]) / (h[0] + h[1]);
-            return vec![
-                secant[0] - bend * h[0],
-                secant[0] + bend * h[0],
-                secant[1] + bend * h[1],
-            ];
+            return vec![secant[0] - bend * h[0], secant[0] + bend * h[0], secant[1] + bend * h[1]];
         }
         _ => {}
     }

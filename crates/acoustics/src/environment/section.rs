@@ -75,7 +75,11 @@ impl Section {
             let surface_m = self.surface_at_m(range_m);
             let floor_m = self.bathymetry.depth_at_m(range_m);
             if surface_m < first_level_m {
-                return Err(AcousticsError::SurfaceAboveLevels { range_m, surface_m, first_level_m });
+                return Err(AcousticsError::SurfaceAboveLevels {
+                    range_m,
+                    surface_m,
+                    first_level_m,
+                });
             }
             if surface_m > floor_m {
                 return Err(AcousticsError::NoWater { range_m, surface_m, floor_m });

@@ -96,10 +96,7 @@ impl Shot<'_> {
     pub(crate) fn rays(&self) -> Vec<Ray> {
         let tracer = self.tracer();
         let beams = self.fan.beams();
-        beams
-            .par_iter()
-            .map(|beam| record(&tracer, self.launch(beam), f64::INFINITY))
-            .collect()
+        beams.par_iter().map(|beam| record(&tracer, self.launch(beam), f64::INFINITY)).collect()
     }
 
     fn tracer(&self) -> Tracer<'_> {

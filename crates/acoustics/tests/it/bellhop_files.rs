@@ -116,7 +116,9 @@ fn everything_a_case_may_hold_is_read() {
     assert_eq!(case.section.sound_speed().speed_m_s(), [1500.0, 1490.0, 1485.0, 1000.0]);
     let Boundary::Elastic(ice) = case.section.surface else { panic!("ice was expected") };
     assert_eq!((ice.compressional.speed_m_s, ice.shear_speed_m_s), (3000.0, 400.0));
-    assert!(matches!(case.section.absorption, Absorption::FrancoisGarrison { ph, .. } if ph == 8.0));
+    assert!(
+        matches!(case.section.absorption, Absorption::FrancoisGarrison { ph, .. } if ph == 8.0)
+    );
     let attenuation = case.section.attenuation.as_ref().unwrap();
     assert_eq!(attenuation.db_wavelength(), [0.3, 0.2, 0.2, 0.2]);
     let altimetry = case.section.altimetry.as_ref().unwrap();
@@ -259,8 +261,7 @@ fn section() -> impl Strategy<Value = Section> {
             section.surface = surface;
             section.altimetry = wavy.then_some(waves);
             section.absorption = absorption;
-            section.attenuation =
-                lossy.then(|| AttenuationProfile::new(levels, losses).unwrap());
+            section.attenuation = lossy.then(|| AttenuationProfile::new(levels, losses).unwrap());
             section
         })
 }
@@ -275,33 +276,35 @@ fn case() -> impl Strategy<Value = Case> {
         Run::Arrivals,
     ]);
     (section(), runs, any::<[bool; 4]>(), 20.0..5000.0f64, ascending(5, 0.0, 9e3), 2..300usize)
-        .prop_map(|(section, run, [gaussian, centred, line, pairs], frequency_hz, range_m, beams)| {
-            let depth_m: Vec<f64> = range_m.iter().map(|range| 400.0 + range / 100.0).collect();
-            let receivers = if pairs { Receivers::pairs } else { Receivers::new };
-            let shape = if gaussian { BeamShape::Gaussian } else { BeamShape::Hat };
-            let coordinates =
-                if centred { BeamCoordinates::RayCentred } else { BeamCoordinates::Cartesian };
-            let uneven = LaunchFan::at(&[-50.0, -3.0, 0.1, 77.7]).unwrap();
-            let geometry = if line { SourceGeometry::Line } else { SourceGeometry::Point };
-            Case {
-                title: "it's a case".to_owned(),
-                frequency_hz,
-                section,
-                source_depth_m: vec![100.0, 333.3],
-                geometry,
-                beam_pattern: line
-                    .then(|| BeamPattern::new(vec![-9.0, 0.3], vec![0.0, -3.1]).unwrap()),
-                receivers: receivers(range_m, depth_m).unwrap(),
-                fan: if run == Run::Rays {
-                    uneven
-                } else {
-                    LaunchFan::uniform(-60.3, 45.1, beams).unwrap()
-                },
-                beams: BeamKind { shape, coordinates },
-                run,
-                settings: TraceSettings::to_range(9100.0),
-            }
-        })
+        .prop_map(
+            |(section, run, [gaussian, centred, line, pairs], frequency_hz, range_m, beams)| {
+                let depth_m: Vec<f64> = range_m.iter().map(|range| 400.0 + range / 100.0).collect();
+                let receivers = if pairs { Receivers::pairs } else { Receivers::new };
+                let shape = if gaussian { BeamShape::Gaussian } else { BeamShape::Hat };
+                let coordinates =
+                    if centred { BeamCoordinates::RayCentred } else { BeamCoordinates::Cartesian };
+                let uneven = LaunchFan::at(&[-50.0, -3.0, 0.1, 77.7]).unwrap();
+                let geometry = if line { SourceGeometry::Line } else { SourceGeometry::Point };
+                Case {
+                    title: "it's a case".to_owned(),
+                    frequency_hz,
+                    section,
+                    source_depth_m: vec![100.0, 333.3],
+                    geometry,
+                    beam_pattern: line
+                        .then(|| BeamPattern::new(vec![-9.0, 0.3], vec![0.0, -3.1]).unwrap()),
+                    receivers: receivers(range_m, depth_m).unwrap(),
+                    fan: if run == Run::Rays {
+                        uneven
+                    } else {
+                        LaunchFan::uniform(-60.3, 45.1, beams).unwrap()
+                    },
+                    beams: BeamKind { shape, coordinates },
+                    run,
+                    settings: TraceSettings::to_range(9100.0),
+                }
+            },
+        )
 }
 
 /// The words of a text with its numbers apart.

@@ -49,9 +49,8 @@ impl<'a> Medley<'a> {
         if self.attenuation.is_none() {
             return self.absorption * path;
         }
-        let at = |sigma: f64| {
-            self.absorption_at(segment.position(sigma).z, segment.slowness_at(sigma))
-        };
+        let at =
+            |sigma: f64| self.absorption_at(segment.position(sigma).z, segment.slowness_at(sigma));
         0.5 * (at(0.0) + at(sigma)) * path
     }
 }
@@ -171,8 +170,7 @@ impl BeamState {
 
     /// How far from the ray the beam reaches at a place, metres.
     pub(super) fn reach(&self, medley: &Medley<'_>, place: &Place) -> f64 {
-        let (half_width, _) =
-            self.half_width(medley, place.width.abs(), place.time, place.speed);
+        let (half_width, _) = self.half_width(medley, place.width.abs(), place.time, place.speed);
         half_width * shape_reach(medley.shape)
     }
 

@@ -9,13 +9,13 @@ impl<S: ContributionSink> Influence<'_, S> {
     /// Deposits on the receivers over which a segment sweeps its normal.
     pub(super) fn sweep_across(&mut self, segment: &Segment) {
         let ends = [0.0, segment.sigma].map(|sigma| Place::new(self.medley, segment, sigma));
-        let reach = MARGIN
-            * ends.iter().map(|end| self.beam.reach(self.medley, end)).fold(0.0, f64::max);
-        let (x, z) = (ends.each_ref().map(|end| end.position.x), ends.each_ref().map(|end| end.position.z));
+        let reach =
+            MARGIN * ends.iter().map(|end| self.beam.reach(self.medley, end)).fold(0.0, f64::max);
+        let (x, z) =
+            (ends.each_ref().map(|end| end.position.x), ends.each_ref().map(|end| end.position.z));
         let steepest = ends.iter().map(|end| end.along.z.abs()).fold(0.0, f64::max);
         let sideways = reach * steepest;
-        let columns =
-            self.stations.columns(x[0].min(x[1]) - sideways, x[0].max(x[1]) + sideways);
+        let columns = self.stations.columns(x[0].min(x[1]) - sideways, x[0].max(x[1]) + sideways);
         for column in columns {
             let range = self.stations.range(column);
             let depths =

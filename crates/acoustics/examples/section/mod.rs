@@ -1,29 +1,14 @@
-//! How the examples draw: range across, depth down.
+//! How the examples draw vertical sections: range across, depth down.
 
-use plotters::coord::Shift;
+use super::paper::{Outcome, Paper};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
-use std::path::Path;
 
-pub(crate) type Paper<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 pub(crate) type Section<'a, 'b> =
     ChartContext<'a, BitMapBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-pub(crate) type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// The sea bed.
 pub(crate) const GROUND: RGBColor = RGBColor(0xa8, 0xa0, 0x95);
-
-const FONT: &[u8] = include_bytes!("../../../report/assets/fonts/DejaVuSans-subset.ttf");
-
-/// A white sheet of paper.
-pub(crate) fn paper(path: &Path, width: u32, height: u32) -> Outcome<Paper<'_>> {
-    // Fails only for a second registration, which changes nothing.
-    let _ = register_font("sans-serif", FontStyle::Normal, FONT);
-    let paper = BitMapBackend::new(path, (width, height)).into_drawing_area();
-    paper.fill(&WHITE)?;
-    Ok(paper)
-}
 
 /// Axes of a vertical section, in km and m, depth downward.
 pub(crate) fn section<'a, 'b>(
