@@ -35,6 +35,7 @@ fn dispatch(cli: &Cli) -> anyhow::Result<()> {
         Command::Check(args) => commands::check::check(args, manner),
         Command::Ocean(command) => commands::ocean::ocean(command, manner),
         Command::Tl(args) => commands::tl::tl(args, manner),
+        Command::Bellhop(args) => commands::bellhop::bellhop(args, manner),
         Command::Place(args) => commands::place::place(args, manner),
         Command::Route(args) => commands::route::route(args, manner),
         Command::Assign(args) => commands::assign::assign(args, manner),

@@ -146,6 +146,12 @@ impl TraceSettings {
             speed_tolerance_m_s: 1e-4,
         }
     }
+
+    /// Settings for fields that are compared point by point, phases included: columns of
+    /// 100 m.
+    pub const fn fine(far_m: f64) -> Self {
+        Self { column_m: 100.0, ..Self::to_range(far_m) }
+    }
 }
 
 impl From<&TraceSettings> for MediumLimits {

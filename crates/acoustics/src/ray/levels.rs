@@ -9,6 +9,16 @@ pub(super) struct Level {
     pub fraction: f64,
 }
 
+impl Level {
+    /// Half-way to the next level.
+    pub(super) fn halfway(self, next: Self) -> Self {
+        let (above, start) =
+            if next.above == self.above { (self.above, self.fraction) } else { (next.above, 0.0) };
+        let fraction = f64::midpoint(start, next.fraction);
+        Self { depth: f64::midpoint(self.depth, next.depth), above, fraction }
+    }
+}
+
 /// More layers between two levels than any profile needs.
 const MOST_PARTS: usize = 4096;
 

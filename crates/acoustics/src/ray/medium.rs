@@ -1,6 +1,6 @@
 use super::levels::{Level, levels, squared_slowness};
 use super::segment::Pair;
-use crate::environment::{Bend, Section};
+use crate::environment::{Bend, ProfileLaw, Section, SoundSpeedField};
 
 /// A section made ready for rays: cells between range nodes and depth levels,
 /// with 1/c² bilinear in each.
@@ -49,20 +49,27 @@ pub(crate) struct Layer {
     pub half_height: f64,
 }
 
-/// 1/c² = `centre` + 2 (`gradient`·d + `twist`·dx·dz), d from the middle of
-/// the cell.
+/// 1/c² = `centre` + `bow` + 2 (`gradient`·d + `twist`·dx·dz) + `bend`·dz², d from the
+/// middle of the cell: the section's, but for its third derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cell {
+    /// Mean of the corners.
     pub centre: f64,
     pub gradient: Pair,
     pub twist: f64,
+    pub bend: f64,
+    /// How far the middle lies above the mean of the corners.
+    pub bow: f64,
 }
 
 impl Cell {
     /// 1/c² at a point, from the middle of the cell.
     pub(crate) fn squared_slowness(&self, from_middle: Pair) -> f64 {
+        let Pair { x, z } = from_middle;
         self.centre
-            + 2.0 * (self.gradient.dot(from_middle) + self.twist * from_middle.x * from_middle.z)
+            + self.bow
+            + 2.0 * (self.gradient.dot(from_middle) + self.twist * x * z)
+            + self.bend * z * z
     }
 
     /// G = ½∇(1/c²) at a point, from the middle of the cell.
@@ -72,7 +79,12 @@ impl Cell {
 
     /// How much G differs between two points of the cell.
     pub(crate) fn gradient_change(&self, apart: Pair) -> Pair {
-        Pair::new(apart.z, apart.x) * self.twist
+        Pair::new(self.twist * apart.z, self.twist * apart.x + self.bend * apart.z)
+    }
+
+    /// Whether G is the same everywhere.
+    pub(crate) fn is_uniform(&self) -> bool {
+        self.twist == 0.0 && self.bend == 0.0
     }
 }
 
@@ -91,10 +103,12 @@ pub(crate) struct MediumLimits {
     pub speed_tolerance_m_s: f64,
 }
 
+/// Columns of a range-dependent field are not divided into more cells than about this.
+const MOST_CELLS: f64 = 4e6;
+
 impl Medium {
     /// Cells of a section between two ranges.
     pub(crate) fn new(section: &Section, limits: &MediumLimits) -> Self {
-        let nodes = range_nodes(section, limits);
         let levels = levels(section.sound_speed(), limits.speed_tolerance_m_s, limits.deepest_m);
         let layers: Vec<Layer> = levels
             .windows(2)
@@ -103,6 +117,8 @@ impl Medium {
                 half_height: 0.5 * (pair[1].depth - pair[0].depth),
             })
             .collect();
+        let least_column_m = (limits.far_m - limits.near_m) * layers.len() as f64 / MOST_CELLS;
+        let nodes = range_nodes(section, limits, limits.column_m.max(least_column_m));
         let columns =
             nodes.windows(2).map(|pair| column(section, &layers, pair[0], pair[1])).collect();
         let cells = cells(section, &nodes, &levels, &layers);
@@ -128,7 +144,7 @@ impl Medium {
 
 /// Ends, nodes of surface and sea floor, sound-speed columns, and what divides wide
 /// columns of a range-dependent field.
-fn range_nodes(section: &Section, limits: &MediumLimits) -> Vec<f64> {
+fn range_nodes(section: &Section, limits: &MediumLimits, column_m: f64) -> Vec<f64> {
     let field = section.sound_speed();
     let depends_on_range = field.range_m().len() > 1;
     let mut nodes = vec![limits.near_m, limits.far_m];
@@ -147,7 +163,7 @@ fn range_nodes(section: &Section, limits: &MediumLimits) -> Vec<f64> {
     }
     let mut divided = vec![nodes[0]];
     for pair in nodes.windows(2) {
-        let parts = ((pair[1] - pair[0]) / limits.column_m).ceil().max(1.0) as usize;
+        let parts = ((pair[1] - pair[0]) / column_m).ceil().max(1.0) as usize;
         let part = |k: usize| pair[0] + (pair[1] - pair[0]) * k as f64 / parts as f64;
         divided.extend((1..parts).map(part));
         divided.push(pair[1]);
@@ -187,23 +203,53 @@ fn column(section: &Section, layers: &[Layer], x0: f64, x1: f64) -> Column {
 fn cells(section: &Section, nodes: &[f64], levels: &[Level], layers: &[Layer]) -> Vec<Cell> {
     let field = section.sound_speed();
     let mut cells = Vec::with_capacity((nodes.len() - 1) * layers.len());
-    let mut left = squared_slowness(field, levels, nodes[0]);
+    let mut left = Side::new(field, levels, nodes[0]);
     for pair in nodes.windows(2) {
         let width = pair[1] - pair[0];
         let right = if field.range_m().len() > 1 {
-            squared_slowness(field, levels, pair[1])
+            Side::new(field, levels, pair[1])
         } else {
             left.clone()
         };
         cells.extend(layers.iter().enumerate().map(|(j, layer)| {
             let height = 2.0 * layer.half_height;
-            let [a, b, c, d] = [left[j], left[j + 1], right[j], right[j + 1]];
-            let centre = 0.25 * (a + b + c + d);
-            let gradient = Pair::new((c + d - a - b) / width, (b + d - a - c) / height) * 0.25;
-            let twist = 0.5 * (a + d - b - c) / (width * height);
-            Cell { centre, gradient, twist }
+            let [a, b] = [left.squared[j], left.squared[j + 1]];
+            let [c, d] = [right.squared[j], right.squared[j + 1]];
+            let bow = f64::midpoint(left.bow[j], right.bow[j]);
+            Cell {
+                centre: 0.25 * (a + b + c + d),
+                gradient: Pair::new((c + d - a - b) / width, (b + d - a - c) / height) * 0.25,
+                twist: 0.5 * (a + d - b - c) / (width * height),
+                bend: -bow / (layer.half_height * layer.half_height),
+                bow,
+            }
         }));
         left = right;
     }
     cells
+}
+
+/// A range node: 1/c² at the levels, and how far it lies above linear half-way between.
+#[derive(Clone)]
+struct Side {
+    squared: Vec<f64>,
+    bow: Vec<f64>,
+}
+
+impl Side {
+    fn new(field: &SoundSpeedField, levels: &[Level], range_m: f64) -> Self {
+        let squared = squared_slowness(field, levels, range_m);
+        let bow = if field.law() == ProfileLaw::LinearSquaredIndex {
+            vec![0.0; levels.len() - 1]
+        } else {
+            let middles: Vec<Level> =
+                levels.windows(2).map(|pair| pair[0].halfway(pair[1])).collect();
+            squared_slowness(field, &middles, range_m)
+                .iter()
+                .zip(squared.windows(2))
+                .map(|(middle, ends)| middle - f64::midpoint(ends[0], ends[1]))
+                .collect()
+        };
+        Self { squared, bow }
+    }
 }

@@ -164,8 +164,14 @@ impl Tracer<'_> {
     fn segment(&self, ray: &State) -> (Segment, Meeting) {
         let cell = self.medium.cell(ray.column, ray.layer);
         let layer = self.medium.layers[ray.layer];
-        let gradient = cell.gradient_at(self.midway(ray));
-        let (sigma, meeting) = self.next_meeting(ray, gradient);
+        let mut gradient = cell.gradient_at(ray.local);
+        let (mut sigma, mut meeting) = self.next_meeting(ray, gradient);
+        if !cell.is_uniform() {
+            // G is taken where the ray is on average.
+            let mean = ray.slowness * (0.5 * sigma) + gradient * (sigma * sigma / 6.0);
+            gradient = cell.gradient_at(ray.local + mean);
+            (sigma, meeting) = self.next_meeting(ray, gradient);
+        }
         let middle = Pair::new(self.medium.columns[ray.column].middle, layer.middle);
         let segment = Segment {
             start: middle + ray.local,
@@ -177,21 +183,6 @@ impl Tracer<'_> {
             burden: ray.burden,
         };
         (segment, meeting)
-    }
-
-    /// About the middle of the coming segment, if it were straight: where sound
-    /// speed depends on range, G is taken there.
-    fn midway(&self, ray: &State) -> Pair {
-        let (column, layer) = (self.medium.columns[ray.column], self.medium.layers[ray.layer]);
-        let until = |half: f64, place: f64, speed: f64| {
-            (half - place.copysign(place * speed)).max(0.0) / speed.abs().max(1e-30)
-        };
-        let sigma = until(column.half_width, ray.local.x, ray.slowness.x).min(until(
-            layer.half_height,
-            ray.local.z,
-            ray.slowness.z,
-        ));
-        ray.local + ray.slowness * (0.5 * sigma)
     }
 
     #[expect(clippy::inline_always, reason = "a third of a ray's time goes into moving segments")]
@@ -266,9 +257,11 @@ impl Tracer<'_> {
                 }
             }
         }
-        let least = (LEAST_SLOPE * ray.slowness.x).powi(2);
-        let vertical_squared = cell.squared_slowness(ray.local) - ray.slowness.x * ray.slowness.x;
-        ray.slowness.z = vertical_squared.max(least).sqrt().copysign(downward);
+        let index_squared = cell.squared_slowness(ray.local);
+        let rescale = (index_squared / ray.slowness.dot(ray.slowness)).sqrt();
+        ray.slowness = ray.slowness * rescale;
+        let least = LEAST_SLOPE * ray.slowness.x.abs();
+        ray.slowness.z = ray.slowness.z.abs().max(least).copysign(downward);
     }
 
     /// Passes to the neighbouring column; false at the ends of the medium.

@@ -1,6 +1,7 @@
 //! One file per command: each reads what was typed, makes one call, and prints.
 
 pub(crate) mod assign;
+pub(crate) mod bellhop;
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod init;

@@ -55,8 +55,8 @@ impl LossTask<'_> {
     }
 
     /// Recomputes the rows of the sample at `fine` settings and notes how far the
-    /// table is from them. Where a table is the mean of both directions, what is
-    /// compared is the one that the sample's rows hold: the mean is no farther off.
+    /// table is from them. Of a table that is the mean of both directions, the rows are
+    /// compared as they were computed, in one direction.
     pub(super) fn estimate_error(
         &self,
         loss: &mut EpochLoss,

@@ -118,7 +118,7 @@ fn every_ingredient_changes_the_fingerprint() {
         ("rows", |i| i.grid.rows = 5),
         ("cell width", |i| i.grid.cell_width_m += 1e-6),
         ("cell height", |i| i.grid.cell_height_m += 1e-6),
-        ("frequency", |i| i.settings.frequency_hz = 1000.000_001),
+        ("frequency", |i| i.settings.frequency_hz = 1000.5),
         ("depth", |i| i.settings.fleet_depth_m = 201.0),
         ("range", |i| i.settings.maximum_range_m = 50_000.0),
         ("bearings", |i| i.settings.numerics.bearings += 1),

@@ -76,6 +76,8 @@ pub(super) struct BeamState {
     caustic_phase: f64,
     /// Nepers absorbed before the segment.
     absorbed: f64,
+    /// Range that the beam has reached, metres.
+    pub(super) front_m: f64,
 }
 
 /// What a beam brings to a receiver. Spreading in cylinders is still missing.

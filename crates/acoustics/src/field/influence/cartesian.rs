@@ -6,9 +6,13 @@ impl<S: ContributionSink> Influence<'_, S> {
     /// Deposits on the columns of receivers that a segment passes. A receiver below or
     /// above the ray has its foot on the tangent.
     pub(super) fn cross_columns(&mut self, segment: &Segment) {
-        let (x0, x1) = (segment.start.x, segment.position(segment.sigma).x);
+        // Where the last segment ended, to the last bit: a column is passed once.
+        let x0 = self.beam.front_m;
+        let x1 = segment.position(segment.sigma).x;
+        self.beam.front_m = x1;
         for column in self.stations.columns(x0.min(x1), x0.max(x1)) {
-            let sigma = segment.sigma_at_distance(self.stations.range(column) - x0);
+            let distance = self.stations.range(column) - segment.start.x;
+            let sigma = segment.sigma_at_distance(distance);
             let place = Place::new(self.medley, segment, sigma);
             let reach = self.beam.vertical_reach(self.medley, &place);
             let depth = place.position.z;

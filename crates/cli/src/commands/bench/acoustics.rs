@@ -168,7 +168,7 @@ impl Bench<'_> {
     fn all(
         &self,
         slices: &[Slice],
-        losses_db: impl Fn(&Slice) -> Result<Vec<f64>> + Sync,
+        losses_db: impl Fn(&Slice) -> Result<Vec<f64>> + Send + Sync,
     ) -> Result<Vec<Vec<f64>>> {
         slices.par_iter().map(losses_db).collect()
     }
