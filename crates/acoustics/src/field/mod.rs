@@ -10,7 +10,7 @@ mod settings;
 mod transmission_loss;
 
 pub use arrivals::{Arrival, Arrivals};
-pub use batch::{FanPart, batch_intensity};
+pub use batch::{FanPart, Slice, batch_intensity};
 pub use beam_pattern::BeamPattern;
 pub use fan::{Beam, LaunchFan};
 pub use influence::{BeamCoordinates, BeamKind, BeamShape, Coherence};
