@@ -3,8 +3,9 @@ use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use crate::sonar::section::{BEHIND_M, Waters};
 use sonarfleet_acoustics::AcousticsError;
+use sonarfleet_acoustics::environment::Section;
 use sonarfleet_acoustics::field::{
-    FanPart, LaunchFan, RangeProfile, Source, TraceSettings, batch_intensity,
+    FanPart, LaunchFan, RangeProfile, Slice, Source, TraceSettings, batch_intensity,
 };
 use std::f64::consts::TAU;
 
@@ -25,6 +26,14 @@ struct Class {
     fan: LaunchFan,
     waters: Waters,
     speed_tolerance_m_s: f64,
+}
+
+/// What lies along a bearing.
+struct Cut {
+    /// As each class of beams sees it.
+    sections: Vec<(Section, TraceSettings)>,
+    /// Number of range samples.
+    count: usize,
 }
 
 impl<'a> RowComputer<'a> {
@@ -53,9 +62,7 @@ impl<'a> RowComputer<'a> {
         if self.waters.floor_m(centre) <= self.settings.fleet_depth_m {
             return Ok(vec![LARGEST_LOSS_DB; self.grid.cell_count()]);
         }
-        let slices = (0..self.numerics.bearings)
-            .map(|index| self.slice(centre, index))
-            .collect::<Result<Vec<_>, _>>()?;
+        let slices = self.slices(centre)?;
         let row = self
             .grid
             .cells()
@@ -75,22 +82,44 @@ impl<'a> RowComputer<'a> {
         TAU / self.numerics.bearings as f64
     }
 
-    /// Intensity along the slice of one bearing; nothing where the slice is too
+    /// Intensity along the slices of all bearings; nothing where a slice is too
     /// short to hold a sample.
-    fn slice(&self, centre: Position, index: usize) -> Result<RangeProfile, AcousticsError> {
-        let bearing_rad = index as f64 * self.bearing_step_rad();
-        let step_m = self.numerics.range_step_m;
+    fn slices(&self, centre: Position) -> Result<Vec<RangeProfile>, AcousticsError> {
+        let cuts = (0..self.numerics.bearings)
+            .map(|index| self.cut(centre, index as f64 * self.bearing_step_rad()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let slices: Vec<Slice<'_>> = cuts
+            .iter()
+            .map(|cut| Slice {
+                parts: cut
+                    .sections
+                    .iter()
+                    .zip(&self.classes)
+                    .map(|((section, settings), class)| FanPart {
+                        section,
+                        fan: &class.fan,
+                        settings,
+                    })
+                    .collect(),
+                count: cut.count,
+            })
+            .collect();
+        let depth_m = self.settings.fleet_depth_m;
+        let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
+        batch_intensity(&slices, &source, depth_m, self.numerics.range_step_m)
+    }
+
+    /// The sections along a bearing, one for each class.
+    fn cut(&self, centre: Position, bearing_rad: f64) -> Result<Cut, AcousticsError> {
         let reach_m = self
             .grid_reach_m(centre, bearing_rad)
             .min(self.settings.maximum_range_m)
             .min(self.water_reach_m(centre, bearing_rad));
-        let count = (reach_m / step_m).ceil() as usize;
+        let count = (reach_m / self.numerics.range_step_m).ceil() as usize;
         if count == 0 {
-            return Ok(RangeProfile { step_m, intensity: Vec::new() });
+            return Ok(Cut { sections: Vec::new(), count });
         }
-        let length_m = count as f64 * step_m;
-        let depth_m = self.settings.fleet_depth_m;
-        let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
+        let length_m = count as f64 * self.numerics.range_step_m;
         let sounding_m = self.numerics.sounding_m;
         let sections = self
             .classes
@@ -106,12 +135,7 @@ impl<'a> RowComputer<'a> {
                 Ok((section, settings))
             })
             .collect::<Result<Vec<_>, AcousticsError>>()?;
-        let parts: Vec<FanPart<'_>> = sections
-            .iter()
-            .zip(&self.classes)
-            .map(|((section, settings), class)| FanPart { section, fan: &class.fan, settings })
-            .collect();
-        batch_intensity(&parts, &source, depth_m, step_m, count)
+        Ok(Cut { sections, count })
     }
 
     /// Distance to the edge of the region along a bearing or along its
