@@ -111,7 +111,11 @@ fn model(args: &BellhopArgs) -> Result<Box<dyn PropagationModel>> {
                 abandon_all();
                 std::process::exit(130);
             })?;
-            Box::new(executable.with_timeout(Duration::try_from_secs_f64(args.timeout).unwrap_or(Duration::MAX)))
+            Box::new(
+                executable.with_timeout(
+                    Duration::try_from_secs_f64(args.timeout).unwrap_or(Duration::MAX),
+                ),
+            )
         }
     })
 }

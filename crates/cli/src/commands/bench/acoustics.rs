@@ -1,6 +1,7 @@
 //! `bench acoustics`: our slices and tables beside the real BELLHOP's.
 
 use super::differences::Differences;
+use super::effort::Effort;
 use super::slices::{self, Slice};
 use crate::args::BenchAcousticsArgs;
 use crate::commands::{self, Manner};
@@ -17,7 +18,6 @@ use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::environment::{Boundary, FluidHalfSpace, Seabed};
 use sonarfleet_acoustics::field::{FanPart, RangeProfiler, Source, batch_intensity};
 use sonarfleet_acoustics::model::{Output, PropagationModel};
-use std::time::Instant;
 
 /// Beams of a slice where both programs do the same.
 const BEAMS: usize = 1200;
@@ -62,7 +62,8 @@ struct Table {
     bearings: usize,
     beams: usize,
     seconds: f64,
-    bellhop_seconds: f64,
+    cpu_s: f64,
+    bellhop_cpu_s: f64,
     ratio: f64,
     from_fine: Differences,
 }
@@ -130,26 +131,24 @@ impl Bench<'_> {
     /// Lets both programs take turns on the slices, each with all threads.
     fn like_for_like(&self, bottom: &str, slices: &[Slice]) -> Result<LikeForLike> {
         let bar = Progress::new(&format!("slices over {bottom}"), !self.manner.talkative());
-        let mut bellhop_s = Vec::new();
-        let mut native_s = Vec::new();
+        let (mut bellhop_s, mut native_s) = (Vec::new(), Vec::new());
         let (mut theirs, mut ours) = (Vec::new(), Vec::new());
         for round in 0..ROUNDS {
             bar.set(2 * round, 2 * ROUNDS + 1);
-            let started = Instant::now();
-            theirs = self.all(slices, |slice| self.by_bellhop(slice))?;
-            bellhop_s.push(started.elapsed().as_secs_f64());
+            let (losses, effort) = Effort::of(|| all(slices, |slice| self.by_bellhop(slice)));
+            theirs = losses?;
+            bellhop_s.push(effort.cpu_s);
             bar.set(2 * round + 1, 2 * ROUNDS + 1);
-            let started = Instant::now();
-            for _ in 0..REPEATS {
-                ours = self.all(slices, |slice| self.by_batch(slice))?;
-            }
-            native_s.push(started.elapsed().as_secs_f64() / REPEATS as f64);
+            let (losses, effort) = Effort::of(|| {
+                let once = || all(slices, |slice| self.by_batch(slice));
+                (1..REPEATS).try_for_each(|_| once().map(drop)).and_then(|()| once())
+            });
+            ours = losses?;
+            native_s.push(effort.cpu_s / REPEATS as f64);
         }
         bar.set(2 * ROUNDS, 2 * ROUNDS + 1);
-        let reference = self.all(slices, |slice| self.by_scalar(slice))?;
-        let cpu_ms = |seconds: Vec<f64>| {
-            1000.0 * median(seconds) * rayon::current_num_threads() as f64 / slices.len() as f64
-        };
+        let reference = all(slices, |slice| self.by_scalar(slice))?;
+        let cpu_ms = |seconds: Vec<f64>| 1000.0 * median(seconds) / slices.len() as f64;
         let (bellhop_cpu_ms, native_cpu_ms) = (cpu_ms(bellhop_s), cpu_ms(native_s));
         let between = |losses: &[Vec<f64>], reference: &[Vec<f64>]| {
             let pairs = losses.iter().flatten().zip(reference.iter().flatten());
@@ -163,14 +162,6 @@ impl Bench<'_> {
             native_from_reference: between(&ours, &reference),
             native_from_bellhop: between(&ours, &theirs),
         })
-    }
-
-    fn all(
-        &self,
-        slices: &[Slice],
-        losses_db: impl Fn(&Slice) -> Result<Vec<f64>> + Send + Sync,
-    ) -> Result<Vec<Vec<f64>>> {
-        slices.par_iter().map(losses_db).collect()
     }
 
     fn by_bellhop(&self, slice: &Slice) -> Result<Vec<f64>> {
@@ -218,9 +209,11 @@ impl Bench<'_> {
         let title = format!("{} table over {bottom}", quality.name());
         let bar = Progress::new(&title, !self.manner.talkative());
         let sources = spread(self.args.sources);
-        let started = Instant::now();
-        compute_rows(&self.waters, grid, &settings(quality), &sources, &|k, n| bar.set(k, n))?;
-        let seconds = started.elapsed().as_secs_f64() * cells as f64 / sources.len() as f64;
+        let (rows, effort) = Effort::of(|| {
+            compute_rows(&self.waters, grid, &settings(quality), &sources, &|k, n| bar.set(k, n))
+        });
+        rows?;
+        let whole = cells as f64 / sources.len() as f64;
 
         let compared = spread(self.args.compared);
         let rows =
@@ -228,21 +221,29 @@ impl Bench<'_> {
         let (rows, fine) = (rows(quality)?, rows(Quality::Fine)?);
         let pairs = rows.iter().flatten().zip(fine.iter().flatten());
         let numerics = quality.numerics();
-        let slices = (cells * BEARINGS) as f64;
-        let bellhop_seconds =
-            slices * bellhop_cpu_ms / 1000.0 / rayon::current_num_threads() as f64;
+        let bellhop_cpu_s = (cells * BEARINGS) as f64 * bellhop_cpu_ms / 1000.0;
+        let cpu_s = effort.cpu_s * whole;
         Ok(Table {
             quality: quality.name(),
             bearings: numerics.bearings,
             beams: numerics.beam_count(),
-            seconds,
-            bellhop_seconds,
-            ratio: bellhop_seconds / seconds,
+            seconds: effort.wall_s * whole,
+            cpu_s,
+            bellhop_cpu_s,
+            ratio: bellhop_cpu_s / cpu_s,
             from_fine: Differences::between(
                 pairs.map(|(loss, fine)| (f64::from(*loss), f64::from(*fine))),
             ),
         })
     }
+}
+
+/// The losses of all slices, on all threads.
+fn all(
+    slices: &[Slice],
+    losses_db: impl Fn(&Slice) -> Result<Vec<f64>> + Send + Sync,
+) -> Result<Vec<Vec<f64>>> {
+    slices.par_iter().map(losses_db).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -255,7 +256,7 @@ fn print(reports: &[Report]) -> Result<()> {
         "Differences: median/p90/p99 dB of averages over a kilometre, for losses under 90 dB.\n"
     ))?;
     commands::say(format_args!(
-        "One slice, {BEAMS} beams, nothing shortened ({} threads each):\n\n\
+        "One slice, {BEAMS} beams, nothing shortened (processor time, {} threads each):\n\n\
          {:<6} {:>10} {:>12} {:>12} {:>7}  {:>16} {:>16} {:>16}",
         rayon::current_num_threads(),
         "bottom",
@@ -284,19 +285,27 @@ fn print(reports: &[Report]) -> Result<()> {
     }
     commands::say(format_args!(
         "\nA whole table, against BELLHOP on {BEARINGS} slices around every cell:\n\n\
-         {:<6} {:<9} {:>16} {:>12} {:>12} {:>7}  {:>16}",
-        "bottom", "quality", "bearings × beams", "BELLHOP", "sonarfleet", "ratio", "from fine",
+         {:<6} {:<9} {:>16} {:>13} {:>12} {:>7} {:>9}  {:>16}",
+        "bottom",
+        "quality",
+        "bearings × beams",
+        "BELLHOP, CPU",
+        "ours, CPU",
+        "ratio",
+        "seconds",
+        "from fine",
     ))?;
     for report in reports {
         for t in &report.tables {
             commands::say(format_args!(
-                "{:<6} {:<9} {:>16} {:>10.0} s {:>10.1} s {:>6.0}×  {:>16}",
+                "{:<6} {:<9} {:>16} {:>11.0} s {:>10.1} s {:>6.0}× {:>9.1}  {:>16}",
                 report.bottom,
                 t.quality,
                 format!("{} × {}", t.bearings, t.beams),
-                t.bellhop_seconds,
-                t.seconds,
+                t.bellhop_cpu_s,
+                t.cpu_s,
                 t.ratio,
+                t.seconds,
                 t.from_fine.to_string(),
             ))?;
         }

@@ -5,6 +5,7 @@ const COMPARED_LOSS_DB: f64 = 90.0;
 
 /// How far losses are from others, dB.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[expect(clippy::struct_field_names, reason = "units stand in names")]
 pub(super) struct Differences {
     pub(super) median_db: f64,
     pub(super) p90_db: f64,

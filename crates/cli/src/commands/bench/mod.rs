@@ -2,6 +2,7 @@
 
 mod acoustics;
 mod differences;
+mod effort;
 mod slices;
 
 use super::Manner;
