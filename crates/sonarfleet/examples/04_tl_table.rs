@@ -6,7 +6,9 @@
 
 use sonarfleet::grid::{CellId, SurveillanceGrid};
 use sonarfleet::sonar::section::Waters;
-use sonarfleet::sonar::transmission_loss::{LossTableSettings, Quality, compute_transmission_loss};
+use sonarfleet::sonar::transmission_loss::{
+    LossTableSettings, Quality, TableModel, compute_transmission_loss,
+};
 use sonarfleet_acoustics::environment::{Boundary, Seabed};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
 use sonarfleet_ocean::synthetic::SyntheticOcean;
@@ -36,6 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         fleet_depth_m: 200.0,
         maximum_range_m: f64::INFINITY,
         numerics: Quality::Fast.numerics(),
+        model: TableModel::Native,
     };
     let table = compute_transmission_loss(&waters, &grid, &settings, &|done, total| {
         eprint!("\r{done} of {total} sources");

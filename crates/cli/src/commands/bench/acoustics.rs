@@ -13,7 +13,7 @@ use sonarfleet::grid::CellId;
 use sonarfleet::mission::Theatre;
 use sonarfleet::scenario::Scenario;
 use sonarfleet::sonar::section::Waters;
-use sonarfleet::sonar::transmission_loss::{LossTableSettings, Quality, compute_rows};
+use sonarfleet::sonar::transmission_loss::{LossTableSettings, Quality, TableModel, compute_rows};
 use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::environment::{Boundary, FluidHalfSpace, Seabed};
 use sonarfleet_acoustics::field::{FanPart, RangeProfiler, Source, batch_intensity};
@@ -205,6 +205,7 @@ impl Bench<'_> {
             fleet_depth_m: self.scenario.fleet_depth_m,
             maximum_range_m: self.scenario.maximum_range_m.unwrap_or(f64::INFINITY),
             numerics: quality.numerics(),
+            model: TableModel::Native,
         };
         let title = format!("{} table over {bottom}", quality.name());
         let bar = Progress::new(&title, !self.manner.talkative());

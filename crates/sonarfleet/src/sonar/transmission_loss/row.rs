@@ -1,3 +1,4 @@
+use super::model::{TableModel, profile_by};
 use super::quality::Numerics;
 use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
@@ -78,6 +79,15 @@ impl<'a> RowComputer<'a> {
         Ok(row)
     }
 
+    /// Samples of intensity along a bearing: to where the region or the water ends.
+    fn sample_count(&self, centre: Position, bearing_rad: f64) -> usize {
+        let reach_m = self
+            .grid_reach_m(centre, bearing_rad)
+            .min(self.settings.maximum_range_m)
+            .min(self.water_reach_m(centre, bearing_rad));
+        (reach_m / self.numerics.range_step_m).ceil() as usize
+    }
+
     fn bearing_step_rad(&self) -> f64 {
         TAU / self.numerics.bearings as f64
     }
@@ -85,6 +95,20 @@ impl<'a> RowComputer<'a> {
     /// Intensity along the slices of all bearings; nothing where a slice is too
     /// short to hold a sample.
     fn slices(&self, centre: Position) -> Result<Vec<RangeProfile>, AcousticsError> {
+        match &self.settings.model {
+            TableModel::Native => self.batch(centre),
+            TableModel::Bellhop(program) => (0..self.numerics.bearings)
+                .map(|index| {
+                    let bearing_rad = index as f64 * self.bearing_step_rad();
+                    let count = self.sample_count(centre, bearing_rad);
+                    profile_by(program, self.waters, self.settings, centre, bearing_rad, count)
+                })
+                .collect(),
+        }
+    }
+
+    /// Our own model traces all slices at once.
+    fn batch(&self, centre: Position) -> Result<Vec<RangeProfile>, AcousticsError> {
         let cuts = (0..self.numerics.bearings)
             .map(|index| self.cut(centre, index as f64 * self.bearing_step_rad()))
             .collect::<Result<Vec<_>, _>>()?;
@@ -111,11 +135,7 @@ impl<'a> RowComputer<'a> {
 
     /// The sections along a bearing, one for each class.
     fn cut(&self, centre: Position, bearing_rad: f64) -> Result<Cut, AcousticsError> {
-        let reach_m = self
-            .grid_reach_m(centre, bearing_rad)
-            .min(self.settings.maximum_range_m)
-            .min(self.water_reach_m(centre, bearing_rad));
-        let count = (reach_m / self.numerics.range_step_m).ceil() as usize;
+        let count = self.sample_count(centre, bearing_rad);
         if count == 0 {
             return Ok(Cut { sections: Vec::new(), count });
         }
