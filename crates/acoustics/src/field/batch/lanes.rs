@@ -1,5 +1,6 @@
 use super::queue::Ray;
 use super::tables::{Cell, Extent, Floor, NOWHERE, Water};
+use crate::field::range_profile::BEAM_SPREAD;
 
 /// Rays that are advanced together.
 pub(super) const LANES: usize = 64;
@@ -40,7 +41,7 @@ pub(super) struct Lanes {
     /// Product of squared reflection coefficients, and where it ends the ray.
     pub energy: Lane,
     pub least_energy: Lane,
-    /// Δα, and cos α Δα/(c₀ √(2π)) in m/s of the reference.
+    /// Δα times `BEAM_SPREAD`, and cos α Δα/(c₀ √(2π)) in m/s of the reference.
     pub beam_width: Lane,
     pub beam_weight: Lane,
     /// Intensity absorbed per metre, nepers.
@@ -251,7 +252,7 @@ impl Lanes {
         self.path[lane] = 0.0;
         self.energy[lane] = 1.0;
         self.least_energy[lane] = ray.least_energy as f32;
-        self.beam_width[lane] = launch.width_rad as f32;
+        self.beam_width[lane] = (BEAM_SPREAD * launch.width_rad) as f32;
         self.beam_weight[lane] = (launch.weight * index) as f32;
         self.absorption[lane] = ray.absorption_m as f32;
         self.first_sample[lane] = ray.first_sample;

@@ -2,7 +2,7 @@ use super::model::{TableModel, profile_by};
 use super::quality::Numerics;
 use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
-use crate::sonar::section::{BEHIND_M, Waters};
+use crate::sonar::section::Waters;
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::environment::Section;
 use sonarfleet_acoustics::field::{
@@ -11,7 +11,18 @@ use sonarfleet_acoustics::field::{
 use std::f64::consts::TAU;
 
 /// A target cell is averaged over this many points a side.
-const POINTS_A_SIDE: usize = 6;
+const POINTS_A_SIDE: usize = 8;
+
+/// How far behind a source rays are followed, metres: what slopes send back from farther
+/// adds less than 0.01 dB.
+const HEARD_BEHIND_M: f64 = 1000.0;
+
+/// Widest column of water, metres; sound speed is linear in range over it.
+const WIDEST_COLUMN_M: f64 = 3000.0;
+
+/// By what fraction of a beam's width the fans of successive bearings are moved: what a
+/// sparse fan does wrong at one bearing, its neighbours even out.
+const SHIFTS: [f64; 4] = [-0.125, 0.375, -0.375, 0.125];
 
 /// What is needed to compute the row of any source.
 pub(super) struct RowComputer<'a> {
@@ -24,7 +35,8 @@ pub(super) struct RowComputer<'a> {
 
 /// Beams of one class, and the waters as simplified for them.
 struct Class {
-    fan: LaunchFan,
+    /// The fan of every fourth bearing.
+    fans: [LaunchFan; SHIFTS.len()],
     waters: Waters,
     speed_tolerance_m_s: f64,
 }
@@ -49,7 +61,7 @@ impl<'a> RowComputer<'a> {
             .into_iter()
             .zip(&numerics.beam_classes)
             .map(|(fan, class)| Class {
-                fan,
+                fans: SHIFTS.map(|shift| fan.shifted(shift)),
                 waters: waters.simplified(class.speed_tolerance_m_s),
                 speed_tolerance_m_s: class.speed_tolerance_m_s,
             })
@@ -114,14 +126,15 @@ impl<'a> RowComputer<'a> {
             .collect::<Result<Vec<_>, _>>()?;
         let slices: Vec<Slice<'_>> = cuts
             .iter()
-            .map(|cut| Slice {
+            .enumerate()
+            .map(|(index, cut)| Slice {
                 parts: cut
                     .sections
                     .iter()
                     .zip(&self.classes)
                     .map(|((section, settings), class)| FanPart {
                         section,
-                        fan: &class.fan,
+                        fan: &class.fans[index % SHIFTS.len()],
                         settings,
                     })
                     .collect(),
@@ -147,7 +160,8 @@ impl<'a> RowComputer<'a> {
             .map(|class| {
                 let section = class.waters.section(centre, bearing_rad, length_m, sounding_m)?;
                 let settings = TraceSettings {
-                    near_m: -BEHIND_M,
+                    near_m: -HEARD_BEHIND_M,
+                    column_m: WIDEST_COLUMN_M,
                     amplitude_cutoff: self.numerics.amplitude_cutoff,
                     speed_tolerance_m_s: class.speed_tolerance_m_s,
                     ..TraceSettings::to_range(length_m)
