@@ -55,6 +55,9 @@ pub(super) fn profile_by(
 ) -> Result<RangeProfile, AcousticsError> {
     let numerics = &settings.numerics;
     let step_m = numerics.range_step_m;
+    if count == 0 {
+        return Ok(RangeProfile { step_m, intensity: Vec::new() });
+    }
     let length_m = count as f64 * step_m;
     let section = waters.section(from, bearing_rad, length_m, numerics.sounding_m)?;
     let trace = TraceSettings {
