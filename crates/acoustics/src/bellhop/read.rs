@@ -9,7 +9,7 @@ use crate::environment::{
     SoundSpeedField,
 };
 use crate::error::{AcousticsError, within};
-use crate::field::{LaunchFan, ReceiverLayout, Receivers, TraceSettings};
+use crate::field::{LaunchFan, ReceiverLayout, Receivers, Source, TraceSettings};
 use crate::model::{Case, Run};
 use crate::seawater::Absorption;
 use std::path::Path;
@@ -22,6 +22,10 @@ const MOST_RECEIVERS: usize = 50_000_000;
 /// Boxes are not smaller than this, nor longer than twice around the Earth.
 const LEAST_BOX_M: f64 = 1.0;
 const MOST_BOX_M: f64 = 1e8;
+
+/// In a box that ends where the water does, rays end when they come to the bottom: the
+/// box is made this much less deep, metres.
+const ENDS_AT_FLOOR_M: f64 = 1e-3;
 
 /// Levels are not further from the surface than this.
 const MOST_DEPTH_M: f64 = 1e6;
@@ -73,6 +77,9 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     let water = Water::read(files, &mut env, frequency_hz, &mut notes)?;
 
     let source_depth_m = env.vector("the number of source depths", "source depths in m")?;
+    for &depth_m in &source_depth_m {
+        env.blame(Source { depth_m, frequency_hz }.check(&water.section))?;
+    }
     let mut receiver_depth_m =
         env.vector("the number of receiver depths", "receiver depths in m")?;
     let (top_m, depth_m) = (water.top_m, water.depth_m);
@@ -119,6 +126,11 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     let mut settings = TraceSettings::to_range(far_m);
     if deepest_m <= water.deepest_level_m {
         settings.deepest_m = deepest_m;
+    }
+    let floor_m = water.section.bathymetry().deepest_m();
+    if (floor_m - ENDS_AT_FLOOR_M..=floor_m).contains(&deepest_m) {
+        note(&mut notes, &env, "the box ends at the bottom, and so do rays");
+        settings.deepest_m = floor_m - ENDS_AT_FLOOR_M;
     }
     let adds_up = !matches!(run_type.run, Run::Rays | Run::Eigenrays);
     if adds_up && fan.beams().len() == 1 && fan.beams()[0].width_rad <= 0.0 {
