@@ -25,6 +25,10 @@ const BEAMS: usize = 1200;
 /// Beams of the reference, which our scalar path computes in double precision.
 const REFERENCE_BEAMS: usize = 4800;
 
+/// Ray step of BELLHOP, metres: what its users take for tables, and its own choice in
+/// water of 1000 m.
+const BELLHOP_STEP_M: f64 = 100.0;
+
 /// Bearings of a table as the paper's authors run BELLHOP.
 const BEARINGS: usize = 72;
 
@@ -70,7 +74,7 @@ struct Table {
 
 pub(super) fn bench(args: &BenchAcousticsArgs, manner: Manner) -> Result<()> {
     let scenario = commands::scenario(args.scenario.as_deref())?;
-    let bellhop = Executable::find()?;
+    let bellhop = Executable::find()?.with_step_m(BELLHOP_STEP_M);
     let theatre = Theatre::of(&scenario)?;
     let state = theatre.forecast.at(scenario.instant(scenario.epochs[0].snapshot_h))?;
     let firm = FluidHalfSpace::new(1600.0, 1.7, 0.5)?;

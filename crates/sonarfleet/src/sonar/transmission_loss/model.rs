@@ -10,7 +10,7 @@ use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, Source, TraceSettings
 use sonarfleet_acoustics::model::{PropagationModel, Slice};
 
 /// What follows sound along the slices of a table.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum TableModel {
     /// This program's own rays, many at a time.
     #[default]
