@@ -22,6 +22,9 @@ use sonarfleet_acoustics::model::{Output, PropagationModel};
 /// Beams of a slice where both programs do the same.
 const BEAMS: usize = 1200;
 
+/// How closely our rays follow speeds between the levels of a profile, m/s.
+const SPEED_TOLERANCE_M_S: f64 = 0.05;
+
 /// Beams of the reference, which our scalar path computes in double precision.
 const REFERENCE_BEAMS: usize = 4800;
 
@@ -180,7 +183,7 @@ impl Bench<'_> {
     }
 
     fn by_batch(&self, slice: &Slice) -> Result<Vec<f64>> {
-        let (fan, settings) = (slices::fan(BEAMS)?, slice.settings());
+        let (fan, settings) = (slices::fan(BEAMS)?, slice.settings(SPEED_TOLERANCE_M_S));
         let parts = vec![FanPart { section: &slice.section, fan: &fan, settings: &settings }];
         let whole = sonarfleet_acoustics::field::Slice { parts, count: slice.count };
         let source = self.source();
@@ -189,7 +192,7 @@ impl Bench<'_> {
     }
 
     fn by_scalar(&self, slice: &Slice) -> Result<Vec<f64>> {
-        let profiler = RangeProfiler::new(&slice.section, &slice.settings());
+        let profiler = RangeProfiler::new(&slice.section, &slice.settings(1e-4));
         let (source, fan) = (self.source(), slices::fan(REFERENCE_BEAMS)?);
         let profile =
             profiler.intensity(&source, &fan, source.depth_m, slices::STEP_M, slice.count)?;
