@@ -12,12 +12,14 @@
 //! linear in σ and changes at interfaces and reflections (see `tracer`).
 
 mod crossing;
+mod lattice;
 mod levels;
 mod medium;
 mod segment;
 mod trace;
 mod tracer;
 
+pub(crate) use lattice::Lattice;
 pub(crate) use medium::{Medium, MediumLimits};
 pub(crate) use segment::{Pair, Segment, SegmentSink};
 pub(crate) use trace::record;

@@ -12,6 +12,7 @@
 mod deposit;
 mod exponential;
 mod lanes;
+mod layout;
 mod queue;
 mod reflect;
 mod step;
