@@ -20,7 +20,8 @@ pub(super) fn spline_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     };
     let (diagonal, upper, right) = end(h[0], h[1], secant[0], secant[1]);
     let first = [0.0, diagonal, upper, right];
-    let (diagonal, lower, right) = end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]);
+    let (diagonal, lower, right) =
+        end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]);
     spline(&h, &secant, first, [lower, diagonal, 0.0, right])
 }
 
@@ -46,8 +47,7 @@ pub(super) fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     };
     let first = end(h[0], h[1], secant[0], secant[1]);
     let final_slope = end(h[last - 1], h[last - 2], secant[last - 1], secant[last - 2]);
-    let mut slopes =
-        spline(&h, &secant, [0.0, 1.0, 0.0, first], [0.0, 1.0, 0.0, final_slope]);
+    let mut slopes = spline(&h, &secant, [0.0, 1.0, 0.0, first], [0.0, 1.0, 0.0, final_slope]);
     for (slope, sides) in slopes[1..].iter_mut().zip(secant.windows(2)) {
         let most = 3.0 * sides[0].abs().min(sides[1].abs());
         let turns = sides[0] * sides[1] <= 0.0 || *slope * sides[0] <= 0.0;

@@ -53,12 +53,13 @@ pub(super) fn levels(field: &SoundSpeedField, tolerance: f64, deepest_m: f64) ->
 }
 
 /// 1/c² at levels at one range.
-pub(super) fn squared_slowness(field: &SoundSpeedField, levels: &[Level], range_m: f64) -> Vec<f64> {
+pub(super) fn squared_slowness(
+    field: &SoundSpeedField,
+    levels: &[Level],
+    range_m: f64,
+) -> Vec<f64> {
     let profile = field.profile_at(range_m);
-    levels
-        .iter()
-        .map(|level| profile.between_m_s(level.above, level.fraction).powi(-2))
-        .collect()
+    levels.iter().map(|level| profile.between_m_s(level.above, level.fraction).powi(-2)).collect()
 }
 
 /// Into how many layers the interval below a level must be cut.

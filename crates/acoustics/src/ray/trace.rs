@@ -94,8 +94,7 @@ impl SegmentSink for Path {
         let bend = segment.gradient.dot(segment.gradient).sqrt();
         let sagitta_m = bend * end * end / 8.0;
         let parts = (sagitta_m / Self::CHORD_M).sqrt().ceil().clamp(1.0, 1000.0) as u32;
-        self.points
-            .extend((1..=parts).map(|part| point(end * f64::from(part) / f64::from(parts))));
+        self.points.extend((1..=parts).map(|part| point(end * f64::from(part) / f64::from(parts))));
         self.surface_bounces = segment.burden.surface_bounces;
         self.bottom_bounces = segment.burden.bottom_bounces;
     }

@@ -164,8 +164,7 @@ impl Tracer<'_> {
     fn segment(&self, ray: &State) -> (Segment, Meeting) {
         let cell = self.medium.cell(ray.column, ray.layer);
         let layer = self.medium.layers[ray.layer];
-        let start =
-            if self.medium.is_coarse { self.midway(ray) } else { ray.local };
+        let start = if self.medium.is_coarse { self.midway(ray) } else { ray.local };
         let mut gradient = cell.gradient_at(start);
         let (mut sigma, mut meeting) = self.next_meeting(ray, gradient);
         if !(self.medium.is_coarse || cell.is_uniform()) {

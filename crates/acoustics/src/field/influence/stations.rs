@@ -26,14 +26,13 @@ impl Stations {
         places.retain(|place| place.0 != 0.0);
         places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let (mut ranges, mut starts) = (Vec::new(), Vec::new());
-        for (index, column) in places.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()).scan(
-            0,
-            |next, column| {
+        for (index, column) in
+            places.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()).scan(0, |next, column| {
                 let start = *next;
                 *next += column.len();
                 Some((start, column))
-            },
-        ) {
+            })
+        {
             starts.push(index);
             ranges.push(column[0].0);
         }
