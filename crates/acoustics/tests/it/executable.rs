@@ -136,11 +136,11 @@ fn profiles_by_way_of_a_field_are_the_native_ones() {
     assert_close_profiles(&Plain);
 }
 
-/// The median and the greatest difference of profiles of a model from the native ones, dB,
+/// The median and the 90th percentile of differences of profiles of a model from the native ones, dB,
 /// beyond 500 m: the window is 100 m, and receivers sample it.
 fn assert_close_profiles(model: &dyn PropagationModel) {
     const MEDIAN_DB: f64 = 0.05;
-    const MOST_DB: f64 = 1.0;
+    const P90_DB: f64 = 0.25;
     let case = read_case(&folder("scs_ib").join("case.env")).unwrap();
     let fan = LaunchFan::graded(&[(12.0, 400), (25.0, 260), (60.0, 140)]).unwrap();
     let slice = Slice {
@@ -160,9 +160,9 @@ fn assert_close_profiles(model: &dyn PropagationModel) {
         .map(|(a, b)| (10.0 * (a / b).log10()).abs())
         .collect();
     apart.sort_by(f64::total_cmp);
-    let (median, most) = (apart[apart.len() / 2], apart[apart.len() - 1]);
-    println!("{}: median {median:.4}, max {most:.4} dB", model.name());
-    assert!(median < MEDIAN_DB && most < MOST_DB, "median {median}, max {most} dB");
+    let (median, p90) = (apart[apart.len() / 2], apart[apart.len() * 9 / 10]);
+    println!("{}: median {median:.4}, p90 {p90:.4} dB", model.name());
+    assert!(median < MEDIAN_DB && p90 < P90_DB, "median {median}, p90 {p90} dB");
 }
 
 /// The real program, if `$SONARFLEET_BELLHOP` names it.
