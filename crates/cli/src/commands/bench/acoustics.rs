@@ -78,6 +78,7 @@ struct Table {
 pub(super) fn bench(args: &BenchAcousticsArgs, manner: Manner) -> Result<()> {
     let scenario = commands::scenario(args.scenario.as_deref())?;
     let bellhop = Executable::find()?.with_step_m(BELLHOP_STEP_M);
+    commands::abandon_programs_on_interrupt()?;
     let theatre = Theatre::of(&scenario)?;
     let state = theatre.forecast.at(scenario.instant(scenario.epochs[0].snapshot_h))?;
     let firm = FluidHalfSpace::new(1600.0, 1.7, 0.5)?;
