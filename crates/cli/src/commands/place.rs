@@ -8,7 +8,7 @@ use serde_json::json;
 use sonarfleet::mission::{Environment, Theatre, input};
 use sonarfleet::placement::instance;
 use sonarfleet::placement::{Budget, Method, PlacementInput, PlacementProblem};
-use sonarfleet::scenario::{PlacementSection, Scenario};
+use sonarfleet::scenario::PlacementSection;
 use std::time::Instant;
 
 pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {

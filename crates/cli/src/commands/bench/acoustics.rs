@@ -16,7 +16,10 @@ use sonarfleet::sonar::section::Waters;
 use sonarfleet::sonar::transmission_loss::{LossTableSettings, Quality, TableModel, compute_rows};
 use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::environment::{Boundary, FluidHalfSpace, Seabed};
-use sonarfleet_acoustics::field::{FanPart, RangeProfiler, Source, batch_intensity};
+use sonarfleet_acoustics::field::{
+    FanPart, RangeProfile, RangeProfiler, Slice as BatchSlice, Source, TraceSettings,
+    batch_intensity,
+};
 use sonarfleet_acoustics::model::{Output, PropagationModel};
 
 /// Beams of a slice where both programs do the same.
@@ -148,7 +151,7 @@ impl Bench<'_> {
             bellhop_s.push(effort.cpu_s);
             bar.set(2 * round + 1, 2 * ROUNDS + 1);
             let (losses, effort) = Effort::of(|| {
-                let once = || all(slices, |slice| self.by_batch(slice));
+                let once = || self.by_batch(slices);
                 (1..REPEATS).try_for_each(|_| once().map(drop)).and_then(|()| once())
             });
             ours = losses?;
@@ -183,13 +186,28 @@ impl Bench<'_> {
         Ok(slices::cell_losses_db(&intensity).collect())
     }
 
-    fn by_batch(&self, slice: &Slice) -> Result<Vec<f64>> {
-        let (fan, settings) = (slices::fan(BEAMS)?, slice.settings(SPEED_TOLERANCE_M_S));
-        let parts = vec![FanPart { section: &slice.section, fan: &fan, settings: &settings }];
-        let whole = sonarfleet_acoustics::field::Slice { parts, count: slice.count };
-        let source = self.source();
-        let profiles = batch_intensity(&[whole], &source, source.depth_m, slices::STEP_M)?;
-        Ok(slices::cell_losses_db(&profiles[0].intensity).collect())
+    /// All slices in one batch a thread, as those around a source are.
+    fn by_batch(&self, slices: &[Slice]) -> Result<Vec<Vec<f64>>> {
+        let (fan, source) = (slices::fan(BEAMS)?, self.source());
+        let of_thread = |slices: &[Slice]| -> Result<Vec<Vec<f64>>> {
+            let settings: Vec<TraceSettings> =
+                slices.iter().map(|slice| slice.settings(SPEED_TOLERANCE_M_S)).collect();
+            let batch: Vec<BatchSlice<'_>> = slices
+                .iter()
+                .zip(&settings)
+                .map(|(slice, settings)| BatchSlice {
+                    parts: vec![FanPart { section: &slice.section, fan: &fan, settings }],
+                    count: slice.count,
+                })
+                .collect();
+            let profiles = batch_intensity(&batch, &source, source.depth_m, slices::STEP_M)?;
+            let losses =
+                |profile: &RangeProfile| slices::cell_losses_db(&profile.intensity).collect();
+            Ok(profiles.iter().map(losses).collect())
+        };
+        let share = slices.len().div_ceil(rayon::current_num_threads());
+        let shares = slices.par_chunks(share).map(of_thread).collect::<Result<Vec<_>>>()?;
+        Ok(shares.concat())
     }
 
     fn by_scalar(&self, slice: &Slice) -> Result<Vec<f64>> {
