@@ -6,7 +6,7 @@
 use sonarfleet::grid::{CellId, SurveillanceGrid};
 use sonarfleet::sonar::section::Waters;
 use sonarfleet::sonar::transmission_loss::{
-    LossTableSettings, Quality, compute_transmission_loss, estimate_error,
+    LossTableSettings, Quality, TableModel, compute_transmission_loss, estimate_error,
 };
 use sonarfleet_acoustics::environment::{Boundary, Seabed};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
@@ -53,6 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 fleet_depth_m: 200.0,
                 maximum_range_m: f64::INFINITY,
                 numerics: quality.numerics(),
+                model: TableModel::Native,
             };
             let start = Instant::now();
             let table = compute_transmission_loss(&waters, &grid, &settings, &|_, _| {})?;

@@ -117,6 +117,16 @@ impl LaunchFan {
         Ok(Self { beams: upward.chain(downward).collect() })
     }
 
+    /// The same fan with every beam moved downward by a fraction of its width.
+    #[must_use]
+    pub fn shifted(&self, fraction: f64) -> Self {
+        let moved = |beam: &Beam| Beam {
+            angle_rad: beam.angle_rad + fraction * beam.width_rad,
+            width_rad: beam.width_rad,
+        };
+        Self { beams: self.beams.iter().map(moved).collect() }
+    }
+
     /// The beams, from the uppermost to the lowest.
     pub fn beams(&self) -> &[Beam] {
         &self.beams

@@ -12,7 +12,7 @@ mod shot;
 mod transmission_loss;
 
 pub use arrivals::{Arrival, Arrivals};
-pub use batch::{FanPart, batch_intensity};
+pub use batch::{FanPart, Slice, batch_intensity};
 pub use beam_kind::{BeamCoordinates, BeamKind, BeamShape, Coherence};
 pub use beam_pattern::BeamPattern;
 pub use fan::{Beam, LaunchFan};

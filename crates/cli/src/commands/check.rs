@@ -62,7 +62,11 @@ fn describe(scenario: &Scenario, theatre: &Theatre) -> String {
 /// At which frequencies transmission loss is taken, and where from.
 fn sound(scenario: &Scenario) -> String {
     let table = |file: bool| {
-        if file { "from files".into() } else { format!("{} quality", scenario.quality.name()) }
+        if file {
+            "from files".into()
+        } else {
+            format!("{}, {} quality", scenario.loss_model.name(), scenario.quality.name())
+        }
     };
     let plan = &scenario.epochs[0];
     let detection =

@@ -2,6 +2,7 @@
 
 pub(crate) mod assign;
 pub(crate) mod bellhop;
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod init;
 pub(crate) mod ocean;

@@ -178,12 +178,13 @@ fn loss_summary(loss: &LossTableMetrics) -> String {
             loss.median_error_db, loss.p90_error_db, loss.sampled_sources
         )
     };
-    if loss.beams == 0 {
+    if loss.model == "file" {
         return format!("from a file, at {} Hz; {difference}", loss.frequency_hz);
     }
     let directions = if loss.both_directions { ", both directions" } else { "" };
     format!(
-        "{} Hz, {} beams, {} bearings{directions}, to {:.1} km; {difference}",
+        "{}, {} Hz, {} beams, {} bearings{directions}, to {:.1} km; {difference}",
+        loss.model,
         loss.frequency_hz,
         loss.beams,
         loss.bearings,

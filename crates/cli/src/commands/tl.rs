@@ -96,6 +96,7 @@ fn tell(rows: &LossRows, output: &Path, work: Option<Work>, manner: Manner) -> R
             "frequency_hz": about.frequency_hz,
             "directions": about.directions,
             "median_loss_db": median_db,
+            "model": about.model,
             "quality": about.quality,
             "beams": about.beams,
             "bearings": about.bearings,

@@ -266,3 +266,16 @@ fn sea_floors_are_listed_with_their_sources() {
     let complaint = String::from_utf8(said.stderr).unwrap();
     assert!(complaint.contains("granite") && complaint.contains("limestone"), "{complaint}");
 }
+
+#[test]
+fn a_model_that_is_not_installed_is_looked_for_and_named() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    write(home, "test.toml", &with("transmission_loss", "model = \"bellhop\""));
+    let mut program = sonarfleet(home);
+    program.env_remove("SONARFLEET_BELLHOP").env("PATH", home).args(["check", "test.toml"]);
+    let complaint = String::from_utf8(program.output().unwrap().stderr).unwrap();
+    for words in ["transmission_loss.model", "native", "SONARFLEET_BELLHOP"] {
+        assert!(complaint.contains(words), "no {words:?} in: {complaint}");
+    }
+}

@@ -42,6 +42,7 @@ function drawTiles() {
 function lossRows(name, table) {
   return [
     ["group", name],
+    ["Model", (m) => table(m).model],
     ["Frequency", (m) => withUnit(table(m).frequency_hz, 0, "Hz")],
     ["Directions", (m) => (table(m).both_directions ? "mean of both" : "one")],
     ["Beams × bearings", (m) => `${table(m).beams} × ${table(m).bearings}`],

@@ -146,6 +146,7 @@ fn epoch(
         unreachable: routes.iter().filter(|r| r.failure.is_some()).count(),
         communication_loss: None,
         transmission_loss: LossTableMetrics {
+            model: "native".into(),
             frequency_hz: 1000.0,
             both_directions: false,
             beams: 161,

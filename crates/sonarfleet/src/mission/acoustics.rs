@@ -47,6 +47,7 @@ impl Acoustics {
             fleet_depth_m: scenario.fleet_depth_m,
             maximum_range_m: scenario.maximum_range_m.unwrap_or(f64::INFINITY),
             numerics: scenario.quality.numerics(),
+            model: scenario.loss_model.clone(),
         };
         Ok(Self { waters, settings })
     }
@@ -68,21 +69,21 @@ impl Acoustics {
 
     /// How a table of these acoustics is described in records.
     pub(super) fn metrics(&self, scenario: &Scenario) -> LossTableMetrics {
-        let numerics = &self.settings.numerics;
+        let settings = &self.settings;
         let diagonal_m = scenario.grid.width_m().hypot(scenario.grid.height_m());
         LossTableMetrics {
+            model: settings.model.name().to_owned(),
             both_directions: scenario.directions == Directions::Both,
-            beams: numerics.beam_count(),
-            bearings: numerics.bearings,
-            range_m: self.settings.maximum_range_m.min(diagonal_m),
-            ..LossTableMetrics::from_file(self.settings.frequency_hz)
+            beams: settings.beam_count(),
+            bearings: settings.numerics.bearings,
+            range_m: settings.maximum_range_m.min(diagonal_m),
+            ..LossTableMetrics::from_file(settings.frequency_hz)
         }
     }
 
     /// How a table of these acoustics is described in files.
     pub fn description(&self, scenario: &Scenario, state: &OceanState) -> LossDescription {
         let Self { waters, settings } = self;
-        let numerics = &settings.numerics;
         LossDescription {
             columns: scenario.grid.columns,
             rows: scenario.grid.rows,
@@ -91,9 +92,10 @@ impl Acoustics {
             maximum_range_m: scenario.maximum_range_m,
             directions: scenario.directions,
             time: state.time.to_string(),
+            model: settings.model.name().into(),
             quality: scenario.quality.name().into(),
-            beams: numerics.beam_count(),
-            bearings: numerics.bearings,
+            beams: settings.beam_count(),
+            bearings: settings.numerics.bearings,
             fingerprint: table_fingerprint(waters, &scenario.grid, settings),
         }
     }

@@ -64,8 +64,11 @@ impl Mission<'_> {
             largest_travel_time_h: reachable.iter().copied().fold(f64::NAN, f64::max),
             arrived: movement.travelled.iter().filter(|route| route.arrived()).count(),
             unreachable: expected_h.len() - reachable.len(),
-            transmission_loss: environment.loss.metrics,
-            communication_loss: environment.communication_loss.as_ref().map(|loss| loss.metrics),
+            transmission_loss: environment.loss.metrics.clone(),
+            communication_loss: environment
+                .communication_loss
+                .as_ref()
+                .map(|loss| loss.metrics.clone()),
             evaluations: placement.evaluations,
             placement_history: placement.history.clone(),
         };

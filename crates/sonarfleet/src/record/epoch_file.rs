@@ -21,7 +21,7 @@ pub fn write_epoch(path: &Path, run: &RunRecord, epoch: &EpochRecord) -> Result<
 
 fn attributes(file: &mut Dataset, run: &RunRecord, epoch: &EpochRecord) {
     let numbers = &epoch.metrics;
-    let links = numbers.communication_loss.unwrap_or(numbers.transmission_loss);
+    let links = numbers.communication_loss.as_ref().unwrap_or(&numbers.transmission_loss);
     for (name, value) in [("source", &run.ocean_source), ("time", &epoch.time)] {
         file.add_attribute(Attribute::text(name, value));
     }

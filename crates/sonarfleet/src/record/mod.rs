@@ -213,8 +213,10 @@ pub struct EpochMetrics {
 
 /// How the transmission-loss table of an epoch was made, and how far it is from
 /// `fine` settings on a sample of sources.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LossTableMetrics {
+    /// What followed sound: a propagation model, or "file" where it is not known.
+    pub model: String,
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// Whether every loss is the mean of both directions.
@@ -236,8 +238,9 @@ pub struct LossTableMetrics {
 impl LossTableMetrics {
     /// Of a table that was made elsewhere: nothing is known but the frequency, Hz, for
     /// which it is used.
-    pub const fn from_file(frequency_hz: f64) -> Self {
+    pub fn from_file(frequency_hz: f64) -> Self {
         Self {
+            model: "file".into(),
             frequency_hz,
             both_directions: false,
             beams: 0,

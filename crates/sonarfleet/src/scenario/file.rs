@@ -376,6 +376,8 @@ pub struct DeployableSection {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TransmissionLossSection {
+    /// What follows sound.
+    pub model: ModelName,
     /// Preset of beams and bearings.
     pub quality: QualityName,
     /// Largest range of a slice, km; absent: to the region's edge.
@@ -395,6 +397,7 @@ pub struct TransmissionLossSection {
 impl Default for TransmissionLossSection {
     fn default() -> Self {
         Self {
+            model: ModelName::Native,
             quality: QualityName::Standard,
             maximum_range_km: None,
             directions: Directions::One,
@@ -403,6 +406,16 @@ impl Default for TransmissionLossSection {
             error_sample: 4,
         }
     }
+}
+
+/// Propagation models by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ModelName {
+    /// This program's own.
+    Native,
+    /// An external program of the BELLHOP family.
+    Bellhop,
 }
 
 /// Presets of the transmission-loss table.

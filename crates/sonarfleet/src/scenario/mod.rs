@@ -9,9 +9,9 @@ pub use error::ScenarioError;
 pub use exclusions::Exclusions;
 pub use file::{
     AssignmentSection, BlobSection, CommunicationsSection, DeployableSection, DetectionSection,
-    FleetSection, HalfSpaceSection, LinkSection, NavigationSection, ObjectiveName, OceanKind,
-    OceanSection, PlacementSection, PlannerName, PriorSection, QualityName, RegionSection,
-    ScenarioFile, SeabedSection, SonarSection, SoundSpeedName, TimeSection,
+    FleetSection, HalfSpaceSection, LinkSection, ModelName, NavigationSection, ObjectiveName,
+    OceanKind, OceanSection, PlacementSection, PlannerName, PriorSection, QualityName,
+    RegionSection, ScenarioFile, SeabedSection, SonarSection, SoundSpeedName, TimeSection,
     TransmissionLossSection,
 };
 
@@ -22,7 +22,7 @@ use crate::placement::Method;
 use crate::sonar::detection::PassiveSonar;
 use crate::sonar::link::Modem;
 use crate::sonar::prior::TargetPrior;
-use crate::sonar::transmission_loss::{Directions, Quality};
+use crate::sonar::transmission_loss::{Directions, Quality, TableModel};
 use jiff::{SignedDuration, Timestamp};
 use sonarfleet_acoustics::environment::FluidHalfSpace;
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
@@ -82,6 +82,8 @@ pub struct Scenario {
     pub maximum_range_m: Option<f64>,
     /// How much work goes into the transmission-loss table.
     pub quality: Quality,
+    /// What follows sound.
+    pub loss_model: TableModel,
     /// Whether a loss is that of one direction or the mean of both.
     pub directions: Directions,
     /// Placement solver.

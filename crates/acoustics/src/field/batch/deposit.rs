@@ -1,19 +1,46 @@
-use super::lanes::{LANES, Lane, Lanes, Meeting, larger, smaller};
-use super::tables::{REFERENCE_M_S, Tables};
+use super::exponential::exponential;
+use super::lanes::{LANES, Lane, Lanes, larger, nearest, smaller};
+use super::step::Step;
+use super::tables::REFERENCE_M_S;
 use crate::field::range_profile::{FASTEST_M_S, REACH, WINDOW_STEPS};
 use std::f64::consts::PI;
 
-/// Reach in the quick test of a step: a tenth more than in deposits, because
-/// slownesses stand for directions there.
+/// Reach in the quick tests of steps and samples: a tenth more than in deposits,
+/// because slownesses stand for directions there.
 const GENEROUS_REACH: f32 = 1.1 * REACH as f32;
 
 /// Rays steeper than 84° may lose the rims of their beams.
 const LEAST_FLATNESS: f32 = 0.1;
 
+/// Passages that are evaluated together.
+const PASSAGES: usize = 128;
+
+/// Rays that pass a range sample near the receivers' depth: a structure of arrays
+/// of what their deposits depend on.
+#[repr(align(64))]
+struct Passages {
+    slowness_x: [f32; PASSAGES],
+    slowness_z: [f32; PASSAGES],
+    gradient_x: [f32; PASSAGES],
+    gradient_z: [f32; PASSAGES],
+    offset_x: [f32; PASSAGES],
+    offset_z: [f32; PASSAGES],
+    offset_slowness_x: [f32; PASSAGES],
+    offset_slowness_z: [f32; PASSAGES],
+    above_receivers: [f32; PASSAGES],
+    path: [f32; PASSAGES],
+    beam_width: [f32; PASSAGES],
+    strength: [f32; PASSAGES],
+    absorption: [f32; PASSAGES],
+    /// From the beginning of the step to the sample.
+    distance: [f32; PASSAGES],
+    sample: [u32; PASSAGES],
+    count: usize,
+}
+
 /// Sums of what passes the receivers' depth, as of
 /// [`RangeProfiler`](crate::field::RangeProfiler).
 pub(super) struct Deposits {
-    depth: f32,
     step: f32,
     steps_per_metre: f32,
     window: f32,
@@ -23,58 +50,62 @@ pub(super) struct Deposits {
     wavelengths: f32,
     /// 0.2 f per metre of path.
     growth: f32,
-    absorption: f32,
+    passages: Passages,
     pub sums: Vec<f64>,
 }
 
 impl Deposits {
-    pub(super) fn new(
-        frequency_hz: f64,
-        absorption_m: f64,
-        depth_m: f64,
-        step_m: f64,
-        count: usize,
-    ) -> Self {
+    pub(super) fn new(frequency_hz: f64, step_m: f64, count: usize) -> Self {
         let window = WINDOW_STEPS * step_m;
+        let zero = [0.0; PASSAGES];
         Self {
-            depth: depth_m as f32,
             step: step_m as f32,
             steps_per_metre: step_m.recip() as f32,
             window: window as f32,
             widest_least: (PI * FASTEST_M_S / frequency_hz) as f32,
             wavelengths: (PI * REFERENCE_M_S / frequency_hz) as f32,
             growth: (0.2 * frequency_hz / REFERENCE_M_S) as f32,
-            absorption: absorption_m as f32,
+            passages: Passages {
+                slowness_x: [1.0; PASSAGES],
+                slowness_z: zero,
+                gradient_x: zero,
+                gradient_z: zero,
+                offset_x: zero,
+                offset_z: zero,
+                offset_slowness_x: zero,
+                offset_slowness_z: zero,
+                above_receivers: zero,
+                path: zero,
+                beam_width: zero,
+                strength: zero,
+                absorption: zero,
+                distance: zero,
+                sample: [0; PASSAGES],
+                count: 0,
+            },
             sums: vec![0.0; count],
         }
     }
 
-    /// Deposits what the rays bring between the beginning of a step and its end
-    /// at `sigma`.
-    pub(super) fn take_step(
-        &mut self,
-        lanes: &Lanes,
-        tables: &Tables,
-        gradient_x: &Lane,
-        gradient_z: &Lane,
-        sigma: &Lane,
-    ) {
-        let (mut distance, mut from) = ([0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
-            distance[i] = self.depth - tables.layers[lanes.layer[i] as usize].middle;
-            from[i] = tables.columns[lanes.column[i] as usize].middle + lanes.local_x[i];
-        }
+    /// Notes what rays bring to samples between the beginning of a step and its end.
+    #[inline(always)]
+    pub(super) fn take_step(&mut self, lanes: &Lanes, step: &Step) {
+        // First and last sample, how near the receivers' depth a sample must be
+        // passed, and whether one is.
+        let (mut from, mut to): (Lane, Lane) = ([0.0; LANES], [0.0; LANES]);
+        let mut within: Lane = [0.0; LANES];
         let mut near = [0u32; LANES];
         for i in 0..LANES {
-            let (t, pz, gz) = (sigma[i], lanes.slowness_z[i], gradient_z[i]);
-            let z = lanes.local_z[i];
-            let end = z + t * (pz + 0.5 * t * gz);
-            let turns = pz * (pz + t * gz) < 0.0;
-            let vertex = if turns { z - 0.5 * pz * pz / gz } else { z };
-            let (top, bottom) = (smaller(smaller(z, end), vertex), larger(larger(z, end), vertex));
-            let away = larger(top - distance[i], distance[i] - bottom);
-            let (px, gx) = (lanes.slowness_x[i], gradient_x[i]);
-            let (px_end, pz_end) = (px + t * gx, pz + t * gz);
+            let (t, gz) = (step.sigma[i], step.gradient_z[i]);
+            let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
+            let (px_end, pz_end) = (px + t * step.gradient_x[i], pz + t * gz);
+            let start = lanes.above_receivers[i];
+            let end = start - t * (pz + 0.5 * t * gz);
+            let flattest_z = smaller(pz.abs(), pz_end.abs());
+            // The vertex lies no farther beyond both ends than this.
+            let overshoot = if pz * pz_end < 0.0 { 0.5 * t * flattest_z } else { 0.0 };
+            let away = larger(smaller(start, end), -larger(start, end)) - overshoot;
+
             let (ox, oz) = (lanes.offset_x[i], lanes.offset_z[i]);
             let ox_end = ox + t * lanes.offset_slowness_x[i];
             let oz_end = oz + t * lanes.offset_slowness_z[i];
@@ -84,62 +115,108 @@ impl Deposits {
             let steepest = larger(pz.abs(), pz_end.abs());
             let flattest = larger(smaller(px.abs(), px_end.abs()), LEAST_FLATNESS);
             let reach = GENEROUS_REACH * (self.widest_least + width + self.window * steepest);
-            // Most steps are short and pass no sample.
-            let to = from[i] + t * (px + 0.5 * t * gx);
-            let passed = self.samples_before(from[i]) != self.samples_before(to);
-            near[i] = u32::from(away * flattest <= reach) & u32::from(passed);
+            within[i] = reach;
+
+            let x = lanes.here.middle[i] + lanes.local_x[i];
+            let x_end = x + 0.5 * t * (px + px_end);
+            // As many samples as whole steps, rounded, lie between the source and x.
+            let samples = |x: f32| {
+                let count = nearest(x * self.steps_per_metre);
+                smaller(larger(count, 0.0), lanes.sample_count[i])
+            };
+            (from[i], to[i]) = (samples(smaller(x, x_end)), samples(larger(x, x_end)));
+            near[i] = u32::from(from[i] < to[i]) & u32::from(away * flattest <= reach);
         }
-        for i in 0..LANES {
-            if near[i] != 0 && lanes.met[i] != Meeting::Idle {
-                self.take_ray(lanes, i, tables, gradient_x[i], gradient_z[i], sigma[i]);
+        let mut list = [0u8; LANES];
+        let mut count = 0;
+        for (i, &near) in near.iter().enumerate() {
+            list[count % LANES] = i as u8;
+            count += near as usize;
+        }
+        for &i in &list[..count] {
+            let i = usize::from(i) % LANES;
+            self.take_ray(lanes, i, step, [from[i] as i32, to[i] as i32], within[i]);
+        }
+    }
+
+    /// Notes the samples that a ray passes in a step.
+    #[inline(always)]
+    fn take_ray(&mut self, lanes: &Lanes, i: usize, step: &Step, samples: [i32; 2], within: f32) {
+        let [first, end] = samples;
+        let start = lanes.here.middle[i] + lanes.local_x[i];
+        let distance = |sample: i32| (sample as f32 + 0.5) * self.step - start;
+        if end == first + 1 {
+            self.note(lanes, i, step, first, distance(first));
+            return;
+        }
+        // Long steps come near the receivers' depth for a part only.
+        let (px, pz, gz) = (lanes.slowness_x[i], lanes.slowness_z[i], step.gradient_z[i]);
+        let inverse = 1.0 / px;
+        for sample in first..end {
+            let distance = (sample as f32 + 0.5) * self.step - start;
+            let t = distance * inverse;
+            let away = (lanes.above_receivers[i] - t * (pz + 0.5 * t * gz)) * px;
+            if away.abs() <= within {
+                self.note(lanes, i, step, sample, distance);
             }
         }
     }
 
-    /// Samples between the source and a range.
-    fn samples_before(&self, range: f32) -> i32 {
-        // Behind the source, where there are none, rounding towards 0 does no harm.
-        (range * self.steps_per_metre + 0.5) as i32
+    #[inline(always)]
+    fn note(&mut self, lanes: &Lanes, i: usize, step: &Step, sample: i32, distance: f32) {
+        if self.passages.count == PASSAGES {
+            self.evaluate();
+        }
+        let p = &mut self.passages;
+        let n = p.count % PASSAGES;
+        p.slowness_x[n] = lanes.slowness_x[i];
+        p.slowness_z[n] = lanes.slowness_z[i];
+        p.gradient_x[n] = step.gradient_x[i];
+        p.gradient_z[n] = step.gradient_z[i];
+        p.offset_x[n] = lanes.offset_x[i];
+        p.offset_z[n] = lanes.offset_z[i];
+        p.offset_slowness_x[n] = lanes.offset_slowness_x[i];
+        p.offset_slowness_z[n] = lanes.offset_slowness_z[i];
+        p.above_receivers[n] = lanes.above_receivers[i];
+        p.path[n] = lanes.path[i];
+        p.beam_width[n] = lanes.beam_width[i];
+        p.strength[n] = lanes.beam_weight[i] * lanes.energy[i];
+        p.absorption[n] = lanes.absorption[i];
+        p.distance[n] = distance;
+        p.sample[n] = lanes.first_sample[i] + sample as u32;
+        p.count += 1;
     }
 
-    fn take_ray(
-        &mut self,
-        lanes: &Lanes,
-        i: usize,
-        tables: &Tables,
-        gradient_x: f32,
-        gradient_z: f32,
-        sigma: f32,
-    ) {
-        let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
-        let start = tables.columns[lanes.column[i] as usize].middle + lanes.local_x[i];
-        let end = start + sigma * (px + 0.5 * sigma * gradient_x);
-        let sample = |x: f32| self.samples_before(x).max(0) as usize;
-        let (first, last) = (sample(start.min(end)), sample(start.max(end)).min(self.sums.len()));
-        let middle = tables.layers[lanes.layer[i] as usize].middle;
-        let below_start = self.depth - middle - lanes.local_z[i];
-        for index in first..last {
-            let distance = (index as f32 + 0.5) * self.step - start;
-            let root = larger(px * px + 2.0 * gradient_x * distance, 0.0).sqrt();
-            let t = smaller(larger(2.0 * distance / (px + root.copysign(px)), 0.0), sigma);
-            let (sx, sz) = (px + t * gradient_x, pz + t * gradient_z);
-            let speed = (sx * sx + sz * sz).sqrt().recip();
-            let across = (below_start - t * (pz + 0.5 * t * gradient_z)) * sx * speed;
-            let path = lanes.path[i] + t / speed;
-            let offset_x = lanes.offset_x[i] + t * lanes.offset_slowness_x[i];
-            let offset_z = lanes.offset_z[i] + t * lanes.offset_slowness_z[i];
-            let width = (sx * offset_z - sz * offset_x) * speed * lanes.beam_width[i];
+    /// Adds what the passages noted so far bring.
+    #[inline(always)]
+    pub(super) fn evaluate(&mut self) {
+        let p = &self.passages;
+        let mut brought = [0.0f32; PASSAGES];
+        for (i, brought) in brought.iter_mut().enumerate() {
+            let (px, pz) = (p.slowness_x[i], p.slowness_z[i]);
+            let (gx, gz) = (p.gradient_x[i], p.gradient_z[i]);
+            let root = larger(px * px + 2.0 * gx * p.distance[i], 0.0).sqrt();
+            let t = larger(2.0 * p.distance[i] / (px + root.copysign(px)), 0.0);
+            let (sx, sz) = (px + t * gx, pz + t * gz);
+            let slowness = (sx * sx + sz * sz).sqrt();
+            let speed = 1.0 / slowness;
+            let across = (p.above_receivers[i] - t * (pz + 0.5 * t * gz)) * sx * speed;
+            let path = p.path[i] + t * slowness;
+            let offset_x = p.offset_x[i] + t * p.offset_slowness_x[i];
+            let offset_z = p.offset_z[i] + t * p.offset_slowness_z[i];
+            let width = (sx * offset_z - sz * offset_x) * speed * p.beam_width[i];
             let least = smaller(self.growth * path, self.wavelengths * speed);
             let spread = larger(width.abs(), least);
             let smear = self.window * sz * speed;
-            let variance = spread * spread + smear * smear;
-            let exponent = across * across / variance;
-            if exponent < (REACH * REACH) as f32 {
-                let decay = (-0.5 * exponent - self.absorption * path).exp();
-                let strength =
-                    lanes.beam_weight[i] * speed * lanes.energy[i] * REFERENCE_M_S as f32;
-                self.sums[index] += f64::from(strength / variance.sqrt() * decay);
-            }
+            let sharpness = 1.0 / (spread * spread + smear * smear);
+            let exponent = across * across * sharpness;
+            let decay = exponential(-0.5 * exponent - p.absorption[i] * path);
+            let peak = p.strength[i] * speed * sharpness.sqrt();
+            *brought = if exponent < (REACH * REACH) as f32 { peak * decay } else { 0.0 };
         }
+        for (&sample, &brought) in p.sample[..p.count].iter().zip(&brought) {
+            self.sums[sample as usize] += f64::from(brought);
+        }
+        self.passages.count = 0;
     }
 }

@@ -1,141 +1,148 @@
 use super::deposit::Deposits;
-use super::lanes::{LANES, Lane, Lanes, Meeting, larger, smaller};
-use super::tables::{Column, REFERENCE_M_S, Tables};
-use crate::environment::Boundary;
+use super::lanes::{FLOOR, Indices, LANES, LEVEL_ABOVE, Lane, Lanes, NODE_BEHIND, Rows, larger};
+use super::tables::{Cell, FIRST_EVENT, Link, Way};
 
 /// Smallest vertical slowness after a crossing.
 const LEAST_SLOPE: f32 = 1e-7;
 
-// What a ray meets, as numbers: indices of `MEETINGS`.
-const NODE_BEHIND: u32 = 0;
-const NODE_AHEAD: u32 = 1;
-const LEVEL_ABOVE: u32 = 2;
-const LEVEL_BELOW: u32 = 3;
-const FLOOR: u32 = 4;
+/// Slownesses and their changes are not divided by less.
+const LEAST_SPEED: f32 = 1e-12;
 
-const MEETINGS: [Meeting; 5] = [
-    Meeting::NodeBehind,
-    Meeting::NodeAhead,
-    Meeting::LevelAbove,
-    Meeting::LevelBelow,
-    Meeting::Floor,
-];
+/// A number that is not divided yet; the lower part is positive.
+#[derive(Clone, Copy)]
+struct Fraction(f32, f32);
 
-/// What a step reads of the cells in which the rays are.
-struct Surroundings {
-    excess: Lane,
-    gradient_x: Lane,
-    gradient_z: Lane,
-    /// G along the coming step.
-    mean_gradient_x: Lane,
-    mean_gradient_z: Lane,
-    twist: Lane,
-    half_width: Lane,
-    half_height: Lane,
-    /// Depth of the floor below the middle of the cell; beyond reach in cells
-    /// that it does not cut.
-    floor: Lane,
-    slope: Lane,
+impl Fraction {
+    #[inline(always)]
+    fn at_most(self, other: Self) -> bool {
+        self.0 * other.1 <= other.0 * self.1
+    }
 }
 
-fn gather(lanes: &Lanes, tables: &Tables) -> Surroundings {
-    let zero = [0.0; LANES];
-    let mut s = Surroundings {
-        excess: zero,
-        gradient_x: zero,
-        gradient_z: zero,
-        mean_gradient_x: zero,
-        mean_gradient_z: zero,
-        twist: zero,
-        half_width: zero,
-        half_height: zero,
-        floor: zero,
-        slope: zero,
-    };
-    for lane in 0..LANES {
-        let column = tables.columns[lanes.column[lane] as usize];
-        let layer = tables.layers[lanes.layer[lane] as usize];
-        let cell = tables.cells[column.cell_base.wrapping_add(lanes.layer[lane]) as usize];
-        s.excess[lane] = cell.excess;
-        s.gradient_x[lane] = cell.gradient_x;
-        s.gradient_z[lane] = cell.gradient_z;
-        s.twist[lane] = cell.twist;
-        s.half_width[lane] = column.half_width;
-        s.half_height[lane] = layer.half_height;
-        let cut = lanes.layer[lane] >= column.first_cut;
-        s.floor[lane] = if cut { column.floor - layer.middle } else { 1e9 };
-        s.slope[lane] = column.slope;
+/// 1/x of a positive number to 0.3 %, without a division: subtracting the bits
+/// negates the logarithm, and one step of Newton's rule follows.
+#[inline(always)]
+fn about_reciprocal(x: f32) -> f32 {
+    let guess = f32::from_bits(0x7ef3_11c7_u32.wrapping_sub(x.to_bits()));
+    guess * (2.0 - x * guess)
+}
+
+/// From where rays are to what they meet next.
+pub(super) struct Step {
+    pub sigma: Lane,
+    /// What is met: negative for nodes, positive for levels, 0 for the floor.
+    pub axis: Lane,
+    /// On which side it lies, behind and above (−1) or ahead and below (+1).
+    pub side: Lane,
+    /// G half-way along the step.
+    pub gradient_x: Lane,
+    pub gradient_z: Lane,
+}
+
+/// Rays whose step does not end at a neighbour.
+pub(super) struct Events {
+    /// The first `count` are filled.
+    lanes: [u8; LANES],
+    links: [Link; LANES],
+    count: usize,
+}
+
+impl Events {
+    /// Lanes, and what happens to their rays.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, Way)> {
+        let filled = self.lanes[..self.count].iter().zip(&self.links);
+        filled.map(|(&lane, link)| (usize::from(lane) % LANES, link.way()))
     }
-    // G about the middle of the coming step, as if it were straight.
-    for i in 0..LANES {
-        let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
-        let (x, z) = (lanes.local_x[i], lanes.local_z[i]);
-        let until_node =
-            larger(s.half_width[i] - x.copysign(x * px), 0.0) / larger(px.abs(), 1e-12);
-        let until_level =
-            larger(s.half_height[i] - z.copysign(z * pz), 0.0) / larger(pz.abs(), 1e-12);
-        let half = 0.5 * smaller(until_node, until_level);
-        s.mean_gradient_x[i] = s.gradient_x[i] + s.twist[i] * (z + half * pz);
-        s.mean_gradient_z[i] = s.gradient_z[i] + s.twist[i] * (x + half * px);
-    }
-    s
+}
+
+/// Moves all rays to what they meet next, deposits what they bring, and takes them
+/// into the neighbouring cells. What else they meet is left to be dealt with.
+#[inline(always)]
+pub(super) fn advance(lanes: &mut Lanes, cells: &[Cell], deposits: &mut Deposits) -> Events {
+    let step = solve(lanes);
+    deposits.take_step(lanes, &step);
+    move_tubes(lanes, &step.sigma);
+    move_rays(lanes, &step);
+    cross(lanes, &step, cells)
 }
 
 /// First σ at which each ray meets a level, a range node or the floor, and which.
-fn solve(lanes: &Lanes, s: &Surroundings, sigma: &mut Lane, which: &mut [u32; LANES]) {
+#[inline(always)]
+fn solve(lanes: &Lanes) -> Step {
+    let zero = [0.0; LANES];
+    let mut step = Step { sigma: zero, axis: zero, side: zero, gradient_x: zero, gradient_z: zero };
+    let s = &lanes.here;
     for i in 0..LANES {
         let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
         let (x, z) = (lanes.local_x[i], lanes.local_z[i]);
-        let (gx, gz) = (s.mean_gradient_x[i], s.mean_gradient_z[i]);
+        let (onward, down) = (1.0f32.copysign(px), 1.0f32.copysign(pz));
+        let (run, fall) = (px.abs(), pz.abs());
+        let width = larger(s.half_width[i] - x * onward, 0.0);
+        let height = larger(s.half_height[i] - z * down, 0.0);
 
-        // Levels: the one ahead by 2d/(v + √(v² + 2ad)); else the one behind.
-        let down = if pz >= 0.0 { 1.0f32 } else { -1.0 };
-        let (speed, push) = (pz.abs(), gz * down);
-        let ahead = larger(s.half_height[i] - z * down, 0.0);
+        // G half-way to the node or level ahead, as if the ray were straight.
+        let node_first = width * fall <= height * run;
+        let half = 0.5
+            * if node_first { width } else { height }
+            * about_reciprocal(larger(if node_first { run } else { fall }, 1e-12));
+        let gx = s.gradient_x[i] + s.twist[i] * (z + half * pz);
+        let gz = s.gradient_z[i] + s.twist[i] * (x + half * px);
+        (step.gradient_x[i], step.gradient_z[i]) = (gx, gz);
+
+        // Levels: the one ahead at 2d/(v + √(v² + 2ad)); else the one behind. Every σ
+        // is kept as a fraction, so that only that of what is met first is divided.
+        let push = gz * down;
         let behind = larger(s.half_height[i] + z * down, 0.0);
-        let discriminant = speed * speed + 2.0 * push * ahead;
-        let reaches = discriminant >= 0.0;
-        let forth = 2.0 * ahead / larger(speed + larger(discriminant, 0.0).sqrt(), 1e-12);
-        let under_root = larger(speed * speed - 2.0 * push * behind, 0.0);
-        let back = (speed + under_root.sqrt()) / larger(-push, 1e-20);
-        let along = if reaches { forth } else { back };
-        let below = (down > 0.0) == reaches;
+        let reaches = fall * fall + 2.0 * push * height >= 0.0;
+        let square = fall * fall + 2.0 * push * if reaches { height } else { -behind };
+        let speed = larger(fall + square.sqrt(), LEAST_SPEED);
+        let level = if reaches { Fraction(2.0 * height, speed) } else { Fraction(speed, -push) };
+        let level_side = if reaches { down } else { -down };
 
         // Range nodes: p_x never changes its sign within a cell.
-        let onward = if px >= 0.0 { 1.0f32 } else { -1.0 };
-        let width = larger(s.half_width[i] - x * onward, 0.0);
-        let run = px * px + 2.0 * gx * onward * width;
-        let across = 2.0 * width / larger(px.abs() + larger(run, 0.0).sqrt(), 1e-12);
+        let square = px * px + 2.0 * gx * onward * width;
+        let speed = larger(run + larger(square, 0.0).sqrt(), LEAST_SPEED);
+        let node = Fraction(2.0 * width, speed);
 
-        // The floor.
-        let gap = larger(s.floor[i] + s.slope[i] * x - z, 0.0);
+        // The floor, or the line over it, below which it is met at once.
+        let gap = s.floor[i] + s.slope[i] * x - z;
+        let inside = gap < s.least_gap[i];
+        let gap = larger(gap, 0.0);
         let closing = pz - s.slope[i] * px;
         let pull = gz - s.slope[i] * gx;
-        let root = closing * closing + 2.0 * pull * gap;
-        let root_speed = larger(root, 0.0).sqrt();
-        let falling = 2.0 * gap / larger(closing + root_speed, 1e-12);
-        let rising = (root_speed - closing) / larger(pull, 1e-20);
-        let never = if closing > 0.0 { root < 0.0 } else { pull <= 0.0 };
-        let contact = if closing > 0.0 { falling } else { rising };
-        let contact = if never { 1e30 } else { contact };
+        let square = closing * closing + 2.0 * pull * gap;
+        let root = larger(square, 0.0).sqrt();
+        let falls = closing > 0.0;
+        let meets = inside | if falls { square >= 0.0 } else { pull > 0.0 };
+        let contact = if falls {
+            Fraction(2.0 * gap, larger(closing + root, LEAST_SPEED))
+        } else {
+            Fraction(root - closing, larger(pull, LEAST_SPEED))
+        };
+        let contact = Fraction(if inside { 0.0 } else { contact.0 }, contact.1);
 
-        let water = if along <= across { along } else { across };
-        let level = if below { LEVEL_BELOW } else { LEVEL_ABOVE };
-        let node = if onward > 0.0 { NODE_AHEAD } else { NODE_BEHIND };
-        let by_water = if along <= across { level } else { node };
-        sigma[i] = if contact <= water { contact } else { water };
-        which[i] = if contact <= water { FLOOR } else { by_water };
+        let level_first = level.at_most(node);
+        let water = if level_first { level } else { node };
+        let floor_first = meets & contact.at_most(water);
+        let first = if floor_first { contact } else { water };
+        step.sigma[i] = first.0 / first.1;
+        step.side[i] = if level_first { level_side } else { onward };
+        let axis = if level_first { 1.0 } else { -1.0 };
+        step.axis[i] = if floor_first { 0.0 } else { axis };
     }
+    step
 }
 
 /// Moves the tubes around the rays to the end of the step.
-fn move_tubes(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
+#[inline(always)]
+fn move_tubes(lanes: &mut Lanes, sigma: &Lane) {
     for (i, &t) in sigma.iter().enumerate() {
         let end_x = lanes.offset_x[i] + t * lanes.offset_slowness_x[i];
         let end_z = lanes.offset_z[i] + t * lanes.offset_slowness_z[i];
         let mean_x = 0.5 * (lanes.offset_x[i] + end_x);
         let mean_z = 0.5 * (lanes.offset_z[i] + end_z);
-        let (change_x, change_z) = (s.twist[i] * mean_z * t, s.twist[i] * mean_x * t);
+        let turn = lanes.here.twist[i] * t;
+        let (change_x, change_z) = (turn * mean_z, turn * mean_x);
         lanes.offset_slowness_x[i] += change_x;
         lanes.offset_slowness_z[i] += change_z;
         lanes.offset_x[i] = end_x + 0.5 * t * change_x;
@@ -144,16 +151,20 @@ fn move_tubes(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
 }
 
 /// Moves the rays to the end of the step, but for rounding onto what they meet.
-fn move_rays(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
-    for (i, &t) in sigma.iter().enumerate() {
+#[inline(always)]
+fn move_rays(lanes: &mut Lanes, step: &Step) {
+    let s = &lanes.here;
+    for (i, &t) in step.sigma.iter().enumerate() {
         let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
-        let (gx, gz) = (s.mean_gradient_x[i], s.mean_gradient_z[i]);
+        let (gx, gz) = (step.gradient_x[i], step.gradient_z[i]);
         // ∫|p|dσ with |p| ≈ (1 + |p|²)/2, and |p|² in the middle of the step.
         let middle = px * px + pz * pz + t * (px * gx + pz * gz);
         lanes.path[i] += 0.5 * t * (1.0 + middle);
 
         let x = lanes.local_x[i] + t * (px + 0.5 * t * gx);
-        let z = lanes.local_z[i] + t * (pz + 0.5 * t * gz);
+        let down = t * (pz + 0.5 * t * gz);
+        let z = lanes.local_z[i] + down;
+        lanes.above_receivers[i] -= down;
         lanes.local_x[i] = x;
         lanes.local_z[i] = z;
 
@@ -166,114 +177,65 @@ fn move_rays(lanes: &mut Lanes, s: &Surroundings, sigma: &Lane) {
         let excess = s.excess[i] + 2.0 * slant;
         let least = LEAST_SLOPE * LEAST_SLOPE;
         let vertical = larger(excess + defect, least).sqrt();
-        lanes.slowness_z[i] = if pz + t * gz >= 0.0 { vertical } else { -vertical };
+        lanes.slowness_z[i] = vertical.copysign(pz + t * gz);
     }
 }
 
-/// Moves all rays to what they meet next and deposits what they bring.
-pub(super) fn advance(lanes: &mut Lanes, tables: &Tables, deposits: &mut Deposits) {
-    let s = gather(lanes, tables);
-    let mut sigma = [0.0; LANES];
-    let mut which = [0; LANES];
-    solve(lanes, &s, &mut sigma, &mut which);
-    deposits.take_step(lanes, tables, &s.mean_gradient_x, &s.mean_gradient_z, &sigma);
-
-    move_tubes(lanes, &s, &sigma);
-    move_rays(lanes, &s, &sigma);
+/// Takes the rays exactly onto what they have met, and through it if there is a
+/// neighbour behind it.
+#[inline(always)]
+fn cross(lanes: &mut Lanes, step: &Step, cells: &[Cell]) -> Events {
+    // G and the middle of the cells that are left.
+    let (mut gradient_x, mut gradient_z) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
-        if lanes.met[i] != Meeting::Idle {
-            lanes.met[i] = MEETINGS[which[i] as usize];
-        }
+        gradient_x[i] = lanes.here.gradient_x[i] + lanes.here.twist[i] * lanes.local_z[i];
+        gradient_z[i] = lanes.here.gradient_z[i] + lanes.here.twist[i] * lanes.local_x[i];
     }
-}
+    let middle = lanes.here.middle;
 
-/// Takes one ray exactly onto what it has met and through it; true if the ray has
-/// ended.
-pub(super) fn meet(
-    lanes: &mut Lanes,
-    i: usize,
-    tables: &Tables,
-    boundaries: [&Boundary; 2],
-) -> bool {
-    let bounds = lanes.bounds[i];
-    let (column, layer) = (lanes.column[i], lanes.layer[i]);
-    match lanes.met[i] {
-        Meeting::Idle => return false,
-        Meeting::NodeBehind if column == bounds.first_column => return true,
-        Meeting::NodeAhead if column == bounds.last_column => return true,
-        Meeting::NodeBehind => enter_column(lanes, i, tables, column - 1, 1.0),
-        Meeting::NodeAhead => enter_column(lanes, i, tables, column + 1, -1.0),
-        Meeting::LevelAbove if layer == bounds.first_layer => {
-            lanes.local_z[i] = -tables.layers[layer as usize].half_height;
-            lanes.slowness_z[i] = -lanes.slowness_z[i].abs();
-            reflect(lanes, i, tables, [0.0, -1.0], boundaries[0]);
-        }
-        Meeting::LevelAbove => enter_layer(lanes, i, tables, layer - 1, 1.0),
-        Meeting::LevelBelow if layer < bounds.last_layer => {
-            enter_layer(lanes, i, tables, layer + 1, -1.0);
-        }
-        Meeting::LevelBelow | Meeting::Floor => {
-            let Column { floor, slope, .. } = tables.columns[column as usize];
-            let middle = tables.layers[layer as usize].middle;
-            lanes.local_z[i] = floor - middle + slope * lanes.local_x[i];
-            let secant = (1.0 + slope * slope).sqrt();
-            reflect(lanes, i, tables, [-slope / secant, 1.0 / secant], boundaries[1]);
-        }
+    let mut events = Events { lanes: [0; LANES], links: [Link::NONE; LANES], count: 0 };
+    let (mut crosses, mut count) = ([0.0f32; LANES], 0);
+    let mut rows = Rows::NOWHERE;
+    let mut met: Indices = [0; LANES];
+    for (i, met) in met.iter_mut().enumerate() {
+        let side = u32::from(step.side[i] > 0.0);
+        let face = if step.axis[i] > 0.0 { LEVEL_ABOVE } else { NODE_BEHIND };
+        *met = if step.axis[i].abs() > 0.0 { face + side } else { FLOOR };
     }
-    lanes.energy[i] < lanes.least_energy[i]
-}
+    for lane in 0..LANES {
+        let before = lanes.cell[lane];
+        let link = cells[before as usize].links[met[lane] as usize];
+        let neighbour = link.number() < FIRST_EVENT;
+        let cell = if neighbour { link.number() } else { before };
+        crosses[lane] = if neighbour { 1.0 } else { 0.0 };
+        lanes.cell[lane] = cell;
+        rows.read(lane, &cells[cell as usize]);
+        (events.lanes[count], events.links[count]) = (lane as u8, link);
+        count += usize::from(!neighbour);
+    }
+    events.count = count;
+    lanes.here.read_all(&rows);
 
-/// δp += (G₂ − G₁) δₙ/pₙ at a range node.
-fn enter_column(lanes: &mut Lanes, i: usize, tables: &Tables, next: u32, side: f32) {
-    let before = tables.cell(lanes.column[i], lanes.layer[i]);
-    let after = tables.cell(next, lanes.layer[i]);
-    let z = lanes.local_z[i];
-    let jump = after.gradient_x - before.gradient_x + (after.twist - before.twist) * z;
-    lanes.offset_slowness_x[i] += jump * lanes.offset_x[i] / lanes.slowness_x[i];
-    lanes.column[i] = next;
-    lanes.local_x[i] = side * tables.columns[next as usize].half_width;
-}
+    let s = &lanes.here;
+    for i in 0..LANES {
+        let (by_node, by_level) = (step.axis[i] < 0.0, step.axis[i] > 0.0);
+        let (x, z) = (lanes.local_x[i], lanes.local_z[i]);
+        let along_x = x + (middle[i] - s.middle[i]);
+        // δp += (G₂ − G₁) δₙ/pₙ, nothing where the cell is the same.
+        let jump_x = s.gradient_x[i] + s.twist[i] * z - gradient_x[i];
+        let jump_z = s.gradient_z[i] + s.twist[i] * along_x - gradient_z[i];
+        let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
+        let pz = if by_level { pz.abs().copysign(step.side[i]) } else { pz };
+        let kick = if by_node { jump_x * lanes.offset_x[i] } else { jump_z * lanes.offset_z[i] }
+            / if by_node { px } else { pz };
+        lanes.offset_slowness_x[i] += if by_node { kick } else { 0.0 };
+        lanes.offset_slowness_z[i] += if by_node { 0.0 } else { kick };
+        lanes.slowness_z[i] = pz;
 
-/// δp += (G₂ − G₁) δₙ/pₙ at a level.
-fn enter_layer(lanes: &mut Lanes, i: usize, tables: &Tables, next: u32, side: f32) {
-    let before = tables.cell(lanes.column[i], lanes.layer[i]);
-    let after = tables.cell(lanes.column[i], next);
-    let x = lanes.local_x[i];
-    let jump = after.gradient_z - before.gradient_z + (after.twist - before.twist) * x;
-    lanes.slowness_z[i] = lanes.slowness_z[i].abs().copysign(-side);
-    lanes.offset_slowness_z[i] += jump * lanes.offset_z[i] / lanes.slowness_z[i];
-    lanes.layer[i] = next;
-    lanes.local_z[i] = side * tables.layers[next as usize].half_height;
-}
-
-/// As the scalar tracer's reflection.
-fn reflect(lanes: &mut Lanes, i: usize, tables: &Tables, n: [f32; 2], boundary: &Boundary) {
-    let mirror = |v: [f32; 2]| {
-        let across = 2.0 * (v[0] * n[0] + v[1] * n[1]);
-        [v[0] - across * n[0], v[1] - across * n[1]]
-    };
-    let slowness = [lanes.slowness_x[i], lanes.slowness_z[i]];
-    let offset = [lanes.offset_x[i], lanes.offset_z[i]];
-    let across = slowness[0] * n[0] + slowness[1] * n[1];
-    let along = slowness[0] * n[1] - slowness[1] * n[0];
-    let cell = tables.cell(lanes.column[i], lanes.layer[i]);
-    let gradient = [
-        cell.gradient_x + cell.twist * lanes.local_z[i],
-        cell.gradient_z + cell.twist * lanes.local_x[i],
-    ];
-    let delay = -(offset[0] * n[0] + offset[1] * n[1]) / across;
-    let later = [gradient[0] * delay, gradient[1] * delay];
-    let turned =
-        mirror([lanes.offset_slowness_x[i] + later[0], lanes.offset_slowness_z[i] + later[1]]);
-    [lanes.offset_slowness_x[i], lanes.offset_slowness_z[i]] =
-        [turned[0] - later[0], turned[1] - later[1]];
-    [lanes.offset_x[i], lanes.offset_z[i]] = mirror(offset);
-    let [px, pz] = mirror(slowness);
-    // p_x' − p_x = −2 pₙ nₓ, so that 1 − p_x² loses nothing to rounding.
-    let turn = -2.0 * across * n[0];
-    lanes.defect[i] -= turn * (2.0 * slowness[0] + turn);
-    (lanes.slowness_x[i], lanes.slowness_z[i]) = (px, pz);
-    let coefficient =
-        boundary.reflection(f64::from(along) / REFERENCE_M_S, f64::from(across) / REFERENCE_M_S);
-    lanes.energy[i] *= coefficient.squared_modulus() as f32;
+        let entered_x = if by_node { -step.side[i] * s.half_width[i] } else { along_x };
+        let entered_z = if by_node { z } else { -step.side[i] * s.half_height[i] };
+        lanes.local_x[i] = if crosses[i] > 0.0 { entered_x } else { x };
+        lanes.local_z[i] = if crosses[i] > 0.0 { entered_z } else { z };
+    }
+    events
 }

@@ -51,6 +51,7 @@ pub(super) fn check(
         communication_frequency_hz,
         maximum_range_m: planning::maximum_range_m(&checker, &file.transmission_loss)?,
         quality: planning::quality(file.transmission_loss.quality),
+        loss_model: planning::loss_model(&checker, file.transmission_loss.model)?,
         directions: file.transmission_loss.directions,
         method: planning::method(&checker, &file.placement)?,
         planner: file.navigation.planner,

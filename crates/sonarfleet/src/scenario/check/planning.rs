@@ -7,11 +7,13 @@ use crate::navigation::{TimeOptimal, TransitDomain};
 use crate::npz::Archive;
 use crate::placement::Method;
 use crate::scenario::{
-    AssignmentSection, BlobSection, EpochPlan, NavigationSection, ObjectiveName, PlacementSection,
-    PriorSection, QualityName, ScenarioError, ScenarioFile, TransmissionLossSection,
+    AssignmentSection, BlobSection, EpochPlan, ModelName, NavigationSection, ObjectiveName,
+    PlacementSection, PriorSection, QualityName, ScenarioError, ScenarioFile,
+    TransmissionLossSection,
 };
 use crate::sonar::prior::{GaussianBlob, TargetPrior};
-use crate::sonar::transmission_loss::Quality;
+use crate::sonar::transmission_loss::{Quality, TableModel};
+use sonarfleet_acoustics::bellhop::Executable;
 use std::path::PathBuf;
 
 pub(super) fn domain(
@@ -143,6 +145,20 @@ pub(super) const fn quality(name: QualityName) -> Quality {
         QualityName::Fast => Quality::Fast,
         QualityName::Standard => Quality::Standard,
         QualityName::Fine => Quality::Fine,
+    }
+}
+
+/// The model of a name; an external program must be there.
+pub(super) fn loss_model(
+    checker: &Checker<'_>,
+    name: ModelName,
+) -> Result<TableModel, ScenarioError> {
+    match name {
+        ModelName::Native => Ok(TableModel::Native),
+        ModelName::Bellhop => Executable::find().map(TableModel::Bellhop).map_err(|error| {
+            let expected = format!("\"native\", or a program to run: {error}");
+            checker.wrong("transmission_loss.model", "\"bellhop\"", expected)
+        }),
     }
 }
 

@@ -22,6 +22,8 @@ pub struct LossDescription {
     pub directions: Directions,
     /// Ocean state, ISO 8601.
     pub time: String,
+    /// What followed sound.
+    pub model: String,
     /// Preset of beams and bearings.
     pub quality: String,
     /// Beams per slice.
@@ -48,6 +50,7 @@ impl LossDescription {
                     about.maximum_range_m.map_or("unlimited".into(), |range| range.to_string()),
                 ),
                 ("directions", about.directions.name().into()),
+                ("the model", about.model.clone()),
                 ("the quality", about.quality.clone()),
                 ("the number of beams", about.beams.to_string()),
                 ("the number of bearings", about.bearings.to_string()),
@@ -103,6 +106,7 @@ pub(super) fn read_description(path: &Path) -> Result<LossDescription, LossFileE
         maximum_range_m: value("maximum_range_m").and_then(AttributeValue::as_number),
         directions,
         time: text("time")?,
+        model: text("model")?,
         quality: text("quality")?,
         beams: number("beams")? as usize,
         bearings: number("bearings")? as usize,

@@ -53,6 +53,7 @@ impl LossRows {
         let about = &self.description;
         for (name, text) in [
             ("time", about.time.as_str()),
+            ("model", &about.model),
             ("quality", &about.quality),
             ("directions", about.directions.name()),
             ("fingerprint", &about.fingerprint),

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Version of the way from waters and settings to rows. It is raised with every
 /// change that moves a loss; a test holds rows of this version.
-pub(super) const TABLE_VERSION: u32 = 1;
+pub(super) const TABLE_VERSION: u32 = 2;
 
 /// Rows are written when so many are waiting, or when the last were written so
 /// long ago: a killed program loses no more than that.
@@ -118,11 +118,15 @@ pub fn table_fingerprint(
     settings: &LossTableSettings,
 ) -> String {
     let version = format!("rows {TABLE_VERSION} of sonarfleet {}", env!("CARGO_PKG_VERSION"));
+    let LossTableSettings { frequency_hz, fleet_depth_m, maximum_range_m, numerics, model } =
+        settings;
     // `{:?}` says numbers with as many digits as tell them apart.
     waters
         .add_to(Fingerprint::default().text(&version))
         .text(&format!("{grid:?}"))
-        .text(&format!("{settings:?}"))
+        .numbers(&[*frequency_hz, *fleet_depth_m, *maximum_range_m])
+        .text(&format!("{numerics:?}"))
+        .text(&model.identity())
         .finish()
 }
 

@@ -5,6 +5,7 @@ mod accuracy;
 mod cache;
 mod chunk;
 mod directions;
+mod model;
 mod quality;
 mod row;
 mod table;
@@ -12,6 +13,7 @@ mod table;
 pub use accuracy::{ErrorEstimate, estimate_error};
 pub use cache::{LossCache, table_fingerprint};
 pub use directions::Directions;
+pub use model::TableModel;
 pub use quality::{BeamClass, Numerics, Quality, UnknownQuality};
 pub use table::{
     LARGEST_LOSS_DB, LossTableRows, LossTableSettings, TransmissionLossError,

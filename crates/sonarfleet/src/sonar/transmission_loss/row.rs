@@ -1,15 +1,28 @@
+use super::model::{TableModel, profile_by};
 use super::quality::Numerics;
 use super::table::{LARGEST_LOSS_DB, LossTableSettings};
 use crate::grid::{CellId, Position, SurveillanceGrid};
-use crate::sonar::section::{BEHIND_M, Waters};
+use crate::sonar::section::Waters;
 use sonarfleet_acoustics::AcousticsError;
+use sonarfleet_acoustics::environment::Section;
 use sonarfleet_acoustics::field::{
-    FanPart, LaunchFan, RangeProfile, Source, TraceSettings, batch_intensity,
+    FanPart, LaunchFan, RangeProfile, Slice, Source, TraceSettings, batch_intensity,
 };
 use std::f64::consts::TAU;
 
 /// A target cell is averaged over this many points a side.
-const POINTS_A_SIDE: usize = 6;
+const POINTS_A_SIDE: usize = 8;
+
+/// How far behind a source rays are followed, metres: what slopes send back from farther
+/// adds less than 0.01 dB.
+const HEARD_BEHIND_M: f64 = 1000.0;
+
+/// Widest column of water, metres; sound speed is linear in range over it.
+const WIDEST_COLUMN_M: f64 = 3000.0;
+
+/// By what fraction of a beam's width the fans of successive bearings are moved: what a
+/// sparse fan does wrong at one bearing, its neighbours even out.
+const SHIFTS: [f64; 4] = [-0.125, 0.375, -0.375, 0.125];
 
 /// What is needed to compute the row of any source.
 pub(super) struct RowComputer<'a> {
@@ -22,9 +35,18 @@ pub(super) struct RowComputer<'a> {
 
 /// Beams of one class, and the waters as simplified for them.
 struct Class {
-    fan: LaunchFan,
+    /// The fan of every fourth bearing.
+    fans: [LaunchFan; SHIFTS.len()],
     waters: Waters,
     speed_tolerance_m_s: f64,
+}
+
+/// What lies along a bearing.
+struct Cut {
+    /// As each class of beams sees it.
+    sections: Vec<(Section, TraceSettings)>,
+    /// Number of range samples.
+    count: usize,
 }
 
 impl<'a> RowComputer<'a> {
@@ -39,7 +61,7 @@ impl<'a> RowComputer<'a> {
             .into_iter()
             .zip(&numerics.beam_classes)
             .map(|(fan, class)| Class {
-                fan,
+                fans: SHIFTS.map(|shift| fan.shifted(shift)),
                 waters: waters.simplified(class.speed_tolerance_m_s),
                 speed_tolerance_m_s: class.speed_tolerance_m_s,
             })
@@ -53,9 +75,7 @@ impl<'a> RowComputer<'a> {
         if self.waters.floor_m(centre) <= self.settings.fleet_depth_m {
             return Ok(vec![LARGEST_LOSS_DB; self.grid.cell_count()]);
         }
-        let slices = (0..self.numerics.bearings)
-            .map(|index| self.slice(centre, index))
-            .collect::<Result<Vec<_>, _>>()?;
+        let slices = self.slices(centre)?;
         let row = self
             .grid
             .cells()
@@ -71,26 +91,68 @@ impl<'a> RowComputer<'a> {
         Ok(row)
     }
 
-    fn bearing_step_rad(&self) -> f64 {
-        TAU / self.numerics.bearings as f64
-    }
-
-    /// Intensity along the slice of one bearing; nothing where the slice is too
-    /// short to hold a sample.
-    fn slice(&self, centre: Position, index: usize) -> Result<RangeProfile, AcousticsError> {
-        let bearing_rad = index as f64 * self.bearing_step_rad();
-        let step_m = self.numerics.range_step_m;
+    /// Samples of intensity along a bearing: to where the region or the water ends.
+    fn sample_count(&self, centre: Position, bearing_rad: f64) -> usize {
         let reach_m = self
             .grid_reach_m(centre, bearing_rad)
             .min(self.settings.maximum_range_m)
             .min(self.water_reach_m(centre, bearing_rad));
-        let count = (reach_m / step_m).ceil() as usize;
-        if count == 0 {
-            return Ok(RangeProfile { step_m, intensity: Vec::new() });
+        (reach_m / self.numerics.range_step_m).ceil() as usize
+    }
+
+    fn bearing_step_rad(&self) -> f64 {
+        TAU / self.numerics.bearings as f64
+    }
+
+    /// Intensity along the slices of all bearings; nothing where a slice is too
+    /// short to hold a sample.
+    fn slices(&self, centre: Position) -> Result<Vec<RangeProfile>, AcousticsError> {
+        match &self.settings.model {
+            TableModel::Native => self.batch(centre),
+            TableModel::Bellhop(program) => (0..self.numerics.bearings)
+                .map(|index| {
+                    let bearing_rad = index as f64 * self.bearing_step_rad();
+                    let count = self.sample_count(centre, bearing_rad);
+                    profile_by(program, self.waters, self.settings, centre, bearing_rad, count)
+                })
+                .collect(),
         }
-        let length_m = count as f64 * step_m;
+    }
+
+    /// Our own model traces all slices at once.
+    fn batch(&self, centre: Position) -> Result<Vec<RangeProfile>, AcousticsError> {
+        let cuts = (0..self.numerics.bearings)
+            .map(|index| self.cut(centre, index as f64 * self.bearing_step_rad()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let slices: Vec<Slice<'_>> = cuts
+            .iter()
+            .enumerate()
+            .map(|(index, cut)| Slice {
+                parts: cut
+                    .sections
+                    .iter()
+                    .zip(&self.classes)
+                    .map(|((section, settings), class)| FanPart {
+                        section,
+                        fan: &class.fans[index % SHIFTS.len()],
+                        settings,
+                    })
+                    .collect(),
+                count: cut.count,
+            })
+            .collect();
         let depth_m = self.settings.fleet_depth_m;
         let source = Source { depth_m, frequency_hz: self.settings.frequency_hz };
+        batch_intensity(&slices, &source, depth_m, self.numerics.range_step_m)
+    }
+
+    /// The sections along a bearing, one for each class.
+    fn cut(&self, centre: Position, bearing_rad: f64) -> Result<Cut, AcousticsError> {
+        let count = self.sample_count(centre, bearing_rad);
+        if count == 0 {
+            return Ok(Cut { sections: Vec::new(), count });
+        }
+        let length_m = count as f64 * self.numerics.range_step_m;
         let sounding_m = self.numerics.sounding_m;
         let sections = self
             .classes
@@ -98,7 +160,8 @@ impl<'a> RowComputer<'a> {
             .map(|class| {
                 let section = class.waters.section(centre, bearing_rad, length_m, sounding_m)?;
                 let settings = TraceSettings {
-                    near_m: -BEHIND_M,
+                    near_m: -HEARD_BEHIND_M,
+                    column_m: WIDEST_COLUMN_M,
                     amplitude_cutoff: self.numerics.amplitude_cutoff,
                     speed_tolerance_m_s: class.speed_tolerance_m_s,
                     ..TraceSettings::to_range(length_m)
@@ -106,12 +169,7 @@ impl<'a> RowComputer<'a> {
                 Ok((section, settings))
             })
             .collect::<Result<Vec<_>, AcousticsError>>()?;
-        let parts: Vec<FanPart<'_>> = sections
-            .iter()
-            .zip(&self.classes)
-            .map(|((section, settings), class)| FanPart { section, fan: &class.fan, settings })
-            .collect();
-        batch_intensity(&parts, &source, depth_m, step_m, count)
+        Ok(Cut { sections, count })
     }
 
     /// Distance to the edge of the region along a bearing or along its

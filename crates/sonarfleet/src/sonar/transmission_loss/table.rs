@@ -1,4 +1,5 @@
 use super::cache::{LossCache, table_fingerprint};
+use super::model::TableModel;
 use super::quality::{Numerics, Quality};
 use super::row::RowComputer;
 use crate::grid::{CellId, SurveillanceGrid};
@@ -46,6 +47,8 @@ pub struct LossTableSettings {
     pub maximum_range_m: f64,
     /// How much work goes into it: those of a [`Quality`](super::Quality), as a rule.
     pub numerics: Numerics,
+    /// What follows sound.
+    pub model: TableModel,
 }
 
 /// Why a table could not be computed.
@@ -217,6 +220,7 @@ mod tests {
             fleet_depth_m: 200.0,
             maximum_range_m: f64::INFINITY,
             numerics: Quality::Fast.numerics(),
+            model: TableModel::Native,
         };
         (waters, grid, settings)
     }
