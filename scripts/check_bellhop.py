@@ -79,7 +79,7 @@ def main():
     print("|---|---|---|---|---|---|---|---|")
     failures = []
     for env in cases:
-        name = env.parent.name if env.stem == "case" else env.stem
+        name = env.parent.name if env.stem == "case" else f"features/{env.stem}"
         letters = run_type(env)
         theirs, ours, driven = (work / name / who for who in ("theirs", "ours", "driven"))
         stage(env, theirs)
