@@ -2,8 +2,8 @@
 
 use super::case_files::CaseFiles;
 use super::options::AttenuationUnit;
-use super::read::{check_speed, half_space};
 use super::records::Records;
+use super::water::{check_speed, half_space};
 use crate::environment::{
     Boundary, Interface, InterfaceShape, ProfileLaw, ReflectionTable, SoundSpeedField,
 };

@@ -14,6 +14,7 @@ mod ray_file;
 mod read;
 mod records;
 mod shade_file;
+mod water;
 mod write;
 
 pub use arrivals_file::ArrivalsFile;

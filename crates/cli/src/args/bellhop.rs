@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub(crate) enum ModelName {
     /// Our own beam tracer, on all cores
     Native,
-    /// The program $SONARFLEET_BELLHOP, else bellhop.exe or bellhop on the path
+    #[value(help = "The program $SONARFLEET_BELLHOP, else bellhop.exe or bellhop on the path")]
     Bellhop,
 }
 
