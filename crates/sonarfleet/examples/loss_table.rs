@@ -1,5 +1,5 @@
 //! Time and error of a table of transmission loss at every quality, over clay,
-//! mud and sand, in the synthetic South China Sea.
+//! mud, a firm fluid and sand, in the synthetic South China Sea.
 //!
 //! `cargo run --release --example loss_table -- [fast|standard|fine]… [sampled sources]`
 
@@ -8,7 +8,7 @@ use sonarfleet::sonar::section::Waters;
 use sonarfleet::sonar::transmission_loss::{
     LossTableSettings, Quality, TableModel, compute_transmission_loss, estimate_error,
 };
-use sonarfleet_acoustics::environment::{Boundary, Seabed};
+use sonarfleet_acoustics::environment::{Boundary, FluidHalfSpace, Seabed};
 use sonarfleet_acoustics::seawater::SoundSpeedEquation;
 use sonarfleet_ocean::LocalFrame;
 use sonarfleet_ocean::synthetic::SyntheticOcean;
@@ -39,13 +39,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let count = grid.cell_count();
     let sample: Vec<CellId> =
         (0..sampled).map(|k| CellId((k * count + count / 2) / sampled.max(1) % count)).collect();
-    for seabed in [Seabed::Clay, Seabed::Mud, Seabed::Sand] {
+    let firm = FluidHalfSpace::new(1600.0, 1.7, 0.5)?;
+    let floors = [
+        ("clay", Seabed::Clay.half_space()),
+        ("mud", Seabed::Mud.half_space()),
+        ("firm", firm),
+        ("sand", Seabed::Sand.half_space()),
+    ];
+    for (name, floor) in floors {
         let waters = Waters::new(
             &forecast.states[0],
             &bathymetry,
             &frame,
             SoundSpeedEquation::Mackenzie,
-            Boundary::Fluid(seabed.half_space()),
+            Boundary::Fluid(floor),
         )?;
         for &quality in &qualities {
             let settings = LossTableSettings {
@@ -62,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let numerics = quality.numerics();
             println!(
                 "{} {}: {} bearings × {} beams, {seconds:.1} s; of {} losses median {:.3}, p90 {:.3}, p99 {:.3} dB from fine",
-                seabed.name(),
+                name,
                 quality.name(),
                 numerics.bearings,
                 numerics.beam_count(),

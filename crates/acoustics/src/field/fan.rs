@@ -127,6 +127,14 @@ impl LaunchFan {
         Self { beams: self.beams.iter().map(moved).collect() }
     }
 
+    /// The beams of this fan and of another.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let mut beams = [self.beams(), other.beams()].concat();
+        beams.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
+        Self { beams }
+    }
+
     /// The beams, from the uppermost to the lowest.
     pub fn beams(&self) -> &[Beam] {
         &self.beams

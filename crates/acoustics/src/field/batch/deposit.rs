@@ -5,12 +5,15 @@ use super::tables::REFERENCE_M_S;
 use crate::field::range_profile::{FASTEST_M_S, REACH, WINDOW_STEPS};
 use std::f64::consts::PI;
 
-/// Reach in the quick tests of steps and samples: a tenth more than in deposits,
-/// because slownesses stand for directions there.
+/// Reach in the quick test of a step: a tenth more than in deposits, because
+/// slownesses stand for directions there.
 const GENEROUS_REACH: f32 = 1.1 * REACH as f32;
 
 /// Rays steeper than 84° may lose the rims of their beams.
 const LEAST_FLATNESS: f32 = 0.1;
+
+/// Steps that descend by less are taken as level, metres.
+const LEAST_DESCENT_M: f32 = 1e-3;
 
 /// Passages that are evaluated together.
 const PASSAGES: usize = 128;
@@ -90,21 +93,13 @@ impl Deposits {
     /// Notes what rays bring to samples between the beginning of a step and its end.
     #[inline(always)]
     pub(super) fn take_step(&mut self, lanes: &Lanes, step: &Step) {
-        // First and last sample, how near the receivers' depth a sample must be
-        // passed, and whether one is.
+        // First and last sample that is passed near the receivers' depth.
         let (mut from, mut to): (Lane, Lane) = ([0.0; LANES], [0.0; LANES]);
-        let mut within: Lane = [0.0; LANES];
         let mut near = [0u32; LANES];
         for i in 0..LANES {
             let (t, gz) = (step.sigma[i], step.gradient_z[i]);
             let (px, pz) = (lanes.slowness_x[i], lanes.slowness_z[i]);
             let (px_end, pz_end) = (px + t * step.gradient_x[i], pz + t * gz);
-            let start = lanes.above_receivers[i];
-            let end = start - t * (pz + 0.5 * t * gz);
-            let flattest_z = smaller(pz.abs(), pz_end.abs());
-            // The vertex lies no farther beyond both ends than this.
-            let overshoot = if pz * pz_end < 0.0 { 0.5 * t * flattest_z } else { 0.0 };
-            let away = larger(smaller(start, end), -larger(start, end)) - overshoot;
 
             let (ox, oz) = (lanes.offset_x[i], lanes.offset_z[i]);
             let ox_end = ox + t * lanes.offset_slowness_x[i];
@@ -115,17 +110,25 @@ impl Deposits {
             let steepest = larger(pz.abs(), pz_end.abs());
             let flattest = larger(smaller(px.abs(), px_end.abs()), LEAST_FLATNESS);
             let reach = GENEROUS_REACH * (self.widest_least + width + self.window * steepest);
-            within[i] = reach;
 
+            // The path lies within t² |G|/8 of its chord, and the beam reaches so far up
+            // and down: over a part of the chord it comes to the receivers' depth.
+            let height = reach / flattest + 0.125 * t * t * gz.abs();
             let x = lanes.here.middle[i] + lanes.local_x[i];
             let x_end = x + 0.5 * t * (px + px_end);
+            let above = lanes.above_receivers[i];
+            let descent = 0.5 * t * (pz + pz_end);
+            let inverse = (x_end - x) / larger(descent.abs(), LEAST_DESCENT_M).copysign(descent);
+            let (entry, exit) = (x + (above - height) * inverse, x + (above + height) * inverse);
+            let start = larger(smaller(x, x_end), smaller(entry, exit));
+            let end = smaller(larger(x, x_end), larger(entry, exit));
             // As many samples as whole steps, rounded, lie between the source and x.
             let samples = |x: f32| {
                 let count = nearest(x * self.steps_per_metre);
                 smaller(larger(count, 0.0), lanes.sample_count[i])
             };
-            (from[i], to[i]) = (samples(smaller(x, x_end)), samples(larger(x, x_end)));
-            near[i] = u32::from(from[i] < to[i]) & u32::from(away * flattest <= reach);
+            (from[i], to[i]) = (samples(start), samples(end));
+            near[i] = u32::from(from[i] < to[i]);
         }
         let mut list = [0u8; LANES];
         let mut count = 0;
@@ -135,29 +138,9 @@ impl Deposits {
         }
         for &i in &list[..count] {
             let i = usize::from(i) % LANES;
-            self.take_ray(lanes, i, step, [from[i] as i32, to[i] as i32], within[i]);
-        }
-    }
-
-    /// Notes the samples that a ray passes in a step.
-    #[inline(always)]
-    fn take_ray(&mut self, lanes: &Lanes, i: usize, step: &Step, samples: [i32; 2], within: f32) {
-        let [first, end] = samples;
-        let start = lanes.here.middle[i] + lanes.local_x[i];
-        let distance = |sample: i32| (sample as f32 + 0.5) * self.step - start;
-        if end == first + 1 {
-            self.note(lanes, i, step, first, distance(first));
-            return;
-        }
-        // Long steps come near the receivers' depth for a part only.
-        let (px, pz, gz) = (lanes.slowness_x[i], lanes.slowness_z[i], step.gradient_z[i]);
-        let inverse = 1.0 / px;
-        for sample in first..end {
-            let distance = (sample as f32 + 0.5) * self.step - start;
-            let t = distance * inverse;
-            let away = (lanes.above_receivers[i] - t * (pz + 0.5 * t * gz)) * px;
-            if away.abs() <= within {
-                self.note(lanes, i, step, sample, distance);
+            let start = lanes.here.middle[i] + lanes.local_x[i];
+            for sample in from[i] as i32..to[i] as i32 {
+                self.note(lanes, i, step, sample, (sample as f32 + 0.5) * self.step - start);
             }
         }
     }

@@ -153,7 +153,7 @@ mod tests {
         let row = compute_rows(&waters, &grid, &settings, &[source], &|_, _| {}).unwrap().remove(0);
         let east_rad = std::f64::consts::FRAC_PI_2;
         let from = grid.centre(source);
-        let profile = profile_by(&Native, &waters, &settings, from, east_rad, 120).unwrap();
+        let profile = profile_by(&Native, &waters, &settings, from, east_rad, 240).unwrap();
         for column in 2..20 {
             let target = CellId(source.0 + column);
             let range_m = grid.centre(target).distance_m(from);
@@ -173,7 +173,7 @@ mod tests {
     fn the_fan_is_as_dense_as_its_densest_class() {
         let (.., settings) = setting();
         let fan = dense_fan(&settings.numerics).unwrap();
-        let spacing_deg = 24.0 / 160.0; // of the innermost class
+        let spacing_deg = 10.0 / 80.0; // of the class from 9° to 14°
         let beams = fan.beams();
         assert_eq!(beams.len(), (110.0_f64 / spacing_deg).round() as usize + 1);
         assert!((beams[0].angle_rad.to_degrees() + 55.0).abs() < 1e-9);

@@ -33,9 +33,9 @@ pub(super) struct RowComputer<'a> {
     classes: Vec<Class>,
 }
 
-/// Beams of one class, and the waters as simplified for them.
+/// Classes of beams that see the same waters.
 struct Class {
-    /// The fan of every fourth bearing.
+    /// The fans of four successive bearings.
     fans: [LaunchFan; SHIFTS.len()],
     waters: Waters,
     speed_tolerance_m_s: f64,
@@ -56,16 +56,23 @@ impl<'a> RowComputer<'a> {
         settings: &'a LossTableSettings,
     ) -> Result<Self, AcousticsError> {
         let numerics = &settings.numerics;
-        let classes = numerics
-            .fans()?
-            .into_iter()
-            .zip(&numerics.beam_classes)
-            .map(|(fan, class)| Class {
-                fans: SHIFTS.map(|shift| fan.shifted(shift)),
-                waters: waters.simplified(class.speed_tolerance_m_s),
-                speed_tolerance_m_s: class.speed_tolerance_m_s,
-            })
-            .collect();
+        let mut classes: Vec<Class> = Vec::new();
+        for (fan, class) in numerics.fans()?.iter().zip(&numerics.beam_classes) {
+            let fans = SHIFTS.map(|shift| fan.shifted(shift));
+            let speed_tolerance_m_s = class.speed_tolerance_m_s;
+            match classes.last_mut() {
+                Some(last) if last.speed_tolerance_m_s >= speed_tolerance_m_s => {
+                    for (joined, fan) in last.fans.iter_mut().zip(&fans) {
+                        *joined = joined.joined(fan);
+                    }
+                }
+                _ => classes.push(Class {
+                    fans,
+                    waters: waters.simplified(speed_tolerance_m_s),
+                    speed_tolerance_m_s,
+                }),
+            }
+        }
         Ok(Self { waters, grid, settings, numerics, classes })
     }
 
@@ -93,10 +100,8 @@ impl<'a> RowComputer<'a> {
 
     /// Samples of intensity along a bearing: to where the region or the water ends.
     fn sample_count(&self, centre: Position, bearing_rad: f64) -> usize {
-        let reach_m = self
-            .grid_reach_m(centre, bearing_rad)
-            .min(self.settings.maximum_range_m)
-            .min(self.water_reach_m(centre, bearing_rad));
+        let reach_m = self.grid_reach_m(centre, bearing_rad).min(self.settings.maximum_range_m);
+        let reach_m = reach_m.min(self.water_reach_m(centre, bearing_rad, reach_m));
         (reach_m / self.numerics.range_step_m).ceil() as usize
     }
 
@@ -202,13 +207,12 @@ impl<'a> RowComputer<'a> {
         reach
     }
 
-    /// Distance to where the ground comes up to the fleet's depth: land ends a
-    /// slice.
-    fn water_reach_m(&self, centre: Position, bearing_rad: f64) -> f64 {
+    /// Distance to where the ground comes up to the fleet's depth, if that is nearer than
+    /// `longest_m`: land ends a slice.
+    fn water_reach_m(&self, centre: Position, bearing_rad: f64, longest_m: f64) -> f64 {
         let (sine, cosine) = bearing_rad.sin_cos();
         let step = self.numerics.range_step_m;
-        let longest = self.grid.width_m().hypot(self.grid.height_m());
-        (1..=(longest / step) as usize)
+        (1..=(longest_m / step) as usize)
             .map(|k| k as f64 * step)
             .find(|&range| {
                 let point =
@@ -239,7 +243,8 @@ impl<'a> RowComputer<'a> {
         if range_m > self.settings.maximum_range_m {
             return 0.0;
         }
-        let place = east_m.atan2(north_m).rem_euclid(TAU) / self.bearing_step_rad();
+        let turn = east_m.atan2(north_m) / TAU;
+        let place = if turn < 0.0 { turn + 1.0 } else { turn } * self.numerics.bearings as f64;
         let before = place as usize;
         let weight = place - before as f64;
         let at = |index: usize| slices[index % slices.len()].intensity_at(range_m);
