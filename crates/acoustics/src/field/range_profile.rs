@@ -90,7 +90,8 @@ impl<'a> RangeProfiler<'a> {
     /// The intensity at one depth in `count` steps of `step_m` from the source.
     ///
     /// # Errors
-    /// If the source is not in the water or the step is not positive.
+    /// If the source is not in the water, the step is not positive, or the section has
+    /// attenuation given by level, which profiles do not know.
     pub fn intensity(
         &self,
         source: &Source,
@@ -100,6 +101,7 @@ impl<'a> RangeProfiler<'a> {
         count: usize,
     ) -> Result<RangeProfile, AcousticsError> {
         source.check(self.section)?;
+        refuse_attenuation(self.section)?;
         within("the step of a range profile", "positive", step_m, step_m > 0.0)?;
         let tracer = Tracer::new(self.section, &self.medium, self.settings.amplitude_cutoff);
         let absorption_db_km = self.section.absorption.db_km(source.frequency_hz);
@@ -128,6 +130,17 @@ impl<'a> RangeProfiler<'a> {
             *sum /= (k as f64 + 0.5) * step_m;
         }
         Ok(RangeProfile { step_m, intensity })
+    }
+}
+
+/// Refuses what neither this path nor the batch takes into account.
+pub(super) fn refuse_attenuation(section: &Section) -> Result<(), AcousticsError> {
+    match section.attenuation {
+        None => Ok(()),
+        Some(_) => Err(AcousticsError::NotOffered {
+            model: "range profile",
+            what: "attenuation given by level",
+        }),
     }
 }
 

@@ -42,6 +42,9 @@ impl PropagationModel for Native {
         &self,
         request: &ProfileRequest<'_>,
     ) -> Result<RangeProfile, AcousticsError> {
+        if request.section.attenuation.is_some() {
+            return Ok(request.profile(&self.solve(&request.case()?)?));
+        }
         RangeProfiler::new(request.section, request.settings).intensity(
             &request.source,
             request.fan,

@@ -1,11 +1,14 @@
 //! The batch kernel against the scalar reference path.
 
+use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::environment::{
-    Boundary, Interface, InterfaceShape, ProfileLaw, Seabed, Section, SoundSpeedField,
+    AttenuationProfile, Boundary, Interface, InterfaceShape, ProfileLaw, Seabed, Section,
+    SoundSpeedField,
 };
 use sonarfleet_acoustics::field::{
     FanPart, LaunchFan, RangeProfile, RangeProfiler, Slice, Source, TraceSettings, batch_intensity,
 };
+use sonarfleet_acoustics::model::{Native, ProfileRequest, PropagationModel};
 use std::f64::consts::TAU;
 
 /// Differences between single and double precision, dB: median and largest.
@@ -155,4 +158,35 @@ fn bad_input_is_refused() {
     assert!(batch_intensity(&slice, &source, 200.0, 0.0).is_err());
     let buried = Source { depth_m: 1500.0, ..source };
     assert!(batch_intensity(&slice, &buried, 200.0, STEP_M).is_err());
+}
+
+#[test]
+fn attenuation_by_level_is_refused_by_the_batch_and_answered_by_the_model() {
+    let mut section = hills(Seabed::Mud);
+    section.attenuation =
+        Some(AttenuationProfile::new(vec![0.0, 1600.0], vec![0.001, 0.001]).unwrap());
+    let (source, settings) = (Source { depth_m: 100.0, frequency_hz: 1000.0 }, settings());
+    let fan = LaunchFan::uniform(-30.0, 30.0, 121).unwrap();
+    let part = FanPart { section: &section, fan: &fan, settings: &settings };
+    let slice = Slice { parts: vec![part], count: 20 };
+    let refused = batch_intensity(&[slice], &source, 100.0, STEP_M);
+    assert!(matches!(refused, Err(AcousticsError::NotOffered { .. })), "{refused:?}");
+
+    let profile = |section: &Section| {
+        let request = ProfileRequest {
+            section,
+            source,
+            fan: &fan,
+            settings: &settings,
+            receiver_depth_m: 100.0,
+            step_m: STEP_M,
+            count: 20,
+        };
+        Native.intensity_profile(&request).unwrap()
+    };
+    let without = hills(Seabed::Mud);
+    // 0.001 dB per wavelength of 1.5 m are 0.6 dB over a kilometre.
+    let lost_db = 10.0
+        * (profile(&without).intensity_at(1000.0) / profile(&section).intensity_at(1000.0)).log10();
+    assert!((0.5..1.0).contains(&lost_db), "{lost_db}");
 }

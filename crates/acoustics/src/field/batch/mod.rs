@@ -24,7 +24,7 @@ use self::queue::Queue;
 use self::reflect::Reflector;
 use self::tables::{Tables, Way};
 use super::fan::LaunchFan;
-use super::range_profile::{RangeProfile, RangeProfiler};
+use super::range_profile::{RangeProfile, RangeProfiler, refuse_attenuation};
 use super::settings::{Source, TraceSettings};
 use crate::environment::{InterfaceShape, Section};
 use crate::error::{AcousticsError, within};
@@ -61,7 +61,8 @@ const MOST_STEPS_PER_BEAM: usize = 20_000;
 /// first part.
 ///
 /// # Errors
-/// If the source is not in the water of a part or the step is not positive.
+/// If the source is not in the water of a part, the step is not positive, or a section
+/// has attenuation given by level.
 pub fn batch_intensity(
     slices: &[Slice<'_>],
     source: &Source,
@@ -81,6 +82,7 @@ fn intensity_on(
     within("the step of a range profile", "positive", step_m, step_m > 0.0)?;
     for part in slices.iter().flat_map(|slice| &slice.parts) {
         source.check(part.section)?;
+        refuse_attenuation(part.section)?;
     }
     let reflectors: Vec<Reflector<'_>> = slices.iter().map(Reflector::new).collect();
     let samples = slices.iter().map(|slice| slice.count).sum();
