@@ -162,9 +162,13 @@ fn bad_input_is_refused() {
 
 #[test]
 fn attenuation_by_level_is_refused_by_the_batch_and_answered_by_the_model() {
-    let mut section = hills(Seabed::Mud);
-    section.attenuation =
-        Some(AttenuationProfile::new(vec![0.0, 1600.0], vec![0.001, 0.001]).unwrap());
+    let lossy = |db_wavelength: f64| {
+        let mut section = hills(Seabed::Mud);
+        let levels = AttenuationProfile::new(vec![0.0, 1600.0], vec![db_wavelength; 2]);
+        section.attenuation = Some(levels.unwrap());
+        section
+    };
+    let section = lossy(0.001);
     let (source, settings) = (Source { depth_m: 100.0, frequency_hz: 1000.0 }, settings());
     let fan = LaunchFan::uniform(-30.0, 30.0, 121).unwrap();
     let part = FanPart { section: &section, fan: &fan, settings: &settings };
@@ -184,7 +188,7 @@ fn attenuation_by_level_is_refused_by_the_batch_and_answered_by_the_model() {
         };
         Native.intensity_profile(&request).unwrap()
     };
-    let without = hills(Seabed::Mud);
+    let without = lossy(0.0);
     // 0.001 dB per wavelength of 1.5 m are 0.6 dB over a kilometre.
     let lost_db = 10.0
         * (profile(&without).intensity_at(1000.0) / profile(&section).intensity_at(1000.0)).log10();
