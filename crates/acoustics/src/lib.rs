@@ -35,6 +35,7 @@ pub mod ray;
 pub mod seawater;
 
 mod complex;
+mod decibel;
 mod error;
 
 pub use complex::Complex;

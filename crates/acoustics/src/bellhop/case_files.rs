@@ -1,4 +1,3 @@
-use super::read::{Reading, read_texts};
 use super::write::write_texts;
 use crate::error::AcousticsError;
 use crate::model::Case;
@@ -94,16 +93,6 @@ impl CaseFiles {
         path.push(".");
         path.push(ending);
         path.into()
-    }
-
-    /// Understands the files.
-    ///
-    /// # Errors
-    /// If a file is missing, a line does not hold what belongs there or asks for
-    /// something that is not supported, or the environment makes no sense. Errors name
-    /// the file and the line.
-    pub fn read(&self) -> Result<Reading, AcousticsError> {
-        read_texts(self)
     }
 
     /// Writes the files into the place that their path names.

@@ -1,9 +1,9 @@
 //! The files that `.env` files refer to.
 
 use super::case_files::CaseFiles;
+use super::media::{check_speed, half_space};
 use super::options::AttenuationUnit;
 use super::records::Records;
-use super::water::{check_speed, half_space};
 use crate::environment::{
     Boundary, Interface, InterfaceShape, ProfileLaw, ReflectionTable, SoundSpeedField,
 };

@@ -8,6 +8,7 @@ mod arrivals_file;
 mod case_files;
 mod companions;
 mod executable;
+mod media;
 mod options;
 mod output;
 mod ray_file;

@@ -1,6 +1,7 @@
 //! What the letters of the options stand for.
 
 use super::records::Records;
+use crate::decibel::DB_PER_NEPER;
 use crate::error::AcousticsError;
 use crate::field::{
     BeamCoordinates, BeamKind, BeamShape, Coherence, ReceiverLayout, SourceGeometry,
@@ -54,7 +55,6 @@ impl AttenuationUnit {
     /// An attenuation of this unit in dB per wavelength: nepers/m (N), dB/(m kHz) (F),
     /// dB/m (M), dB per wavelength (W), quality factor (Q), loss parameter (L).
     pub(crate) fn db_wavelength(self, value: f64, speed_m_s: f64) -> f64 {
-        const DB_PER_NEPER: f64 = 8.685_889_638_065_037;
         let wavelength_m = speed_m_s / self.frequency_hz;
         match self.letter {
             'N' => value * DB_PER_NEPER * wavelength_m,

@@ -42,7 +42,19 @@ pub fn read_case(path: &Path) -> Result<Case, AcousticsError> {
     Ok(CaseFiles::load(path)?.read()?.case)
 }
 
-pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
+impl CaseFiles {
+    /// Understands the files.
+    ///
+    /// # Errors
+    /// If a file is missing, a line does not hold what belongs there or asks for
+    /// something that is not supported, or the environment makes no sense. Errors name
+    /// the file and the line.
+    pub fn read(&self) -> Result<Reading, AcousticsError> {
+        read_texts(self)
+    }
+}
+
+fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     let path = files.path("env");
     let text = files.text("env").ok_or_else(|| AcousticsError::Unreadable {
         path: path.clone(),
@@ -68,7 +80,7 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
         env.vector("the number of receiver depths", "receiver depths in m")?;
     let (top_m, depth_m) = (water.top_m, water.depth_m);
     if receiver_depth_m.iter().any(|depth| !(top_m..=depth_m).contains(depth)) {
-        note(&mut notes, &env, "receivers outside of the water are moved to its rim");
+        notes.push(env.note("receivers outside of the water are moved to its rim"));
         for depth in &mut receiver_depth_m {
             *depth = depth.clamp(top_m, depth_m);
         }
@@ -113,7 +125,7 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     }
     let floor_m = water.section.bathymetry().deepest_m();
     if (floor_m - ENDS_AT_FLOOR_M..=floor_m).contains(&deepest_m) {
-        note(&mut notes, &env, "the box ends at the bottom, and so do rays");
+        notes.push(env.note("the box ends at the bottom, and so do rays"));
         settings.deepest_m = floor_m - ENDS_AT_FLOOR_M;
     }
     let adds_up = !matches!(run_type.run, Run::Rays | Run::Eigenrays);
@@ -136,15 +148,10 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     Ok(Reading { case, binary_arrivals: run_type.binary, notes })
 }
 
-pub(crate) fn note(notes: &mut Vec<String>, records: &Records, what: &str) {
-    let (path, line) = records.place();
-    notes.push(format!("{}, line {line}: {what}", path.display()));
-}
-
 fn sort(values: &mut [f64], notes: &mut Vec<String>, records: &Records) {
     if !values.is_sorted() {
         values.sort_by(f64::total_cmp);
-        note(notes, records, "the values are sorted");
+        notes.push(records.note("the values are sorted"));
     }
 }
 

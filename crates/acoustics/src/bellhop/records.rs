@@ -40,6 +40,11 @@ impl<'a> Records<'a> {
         (&self.path, self.next)
     }
 
+    /// A remark on the line just read.
+    pub(crate) fn note(&self, what: &str) -> String {
+        format!("{}, line {}: {what}", self.path.display(), self.next)
+    }
+
     /// The error that the line just read does not hold `expected`.
     pub(crate) fn syntax(&self, expected: &'static str) -> AcousticsError {
         const MOST_SHOWN: usize = 120;

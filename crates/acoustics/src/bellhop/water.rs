@@ -2,25 +2,17 @@
 
 use super::case_files::CaseFiles;
 use super::companions::{read_interface, read_reflection, read_sound_speed, require};
+use super::media::{check_speed, half_space};
 use super::options::{AttenuationUnit, Options};
-use super::read::note;
 use super::records::Records;
 use crate::environment::{
-    AttenuationProfile, Boundary, ElasticHalfSpace, FluidHalfSpace, Interface, ProfileLaw, Section,
-    SoundSpeedField,
+    AttenuationProfile, Boundary, Interface, ProfileLaw, Section, SoundSpeedField,
 };
 use crate::error::{AcousticsError, within};
 use crate::seawater::Absorption;
 
 /// Levels are not further from the surface than this.
 const MOST_DEPTH_M: f64 = 1e6;
-
-/// Checks that a sound speed is one of water, generously: what is far from it makes
-/// profiles too steep to follow.
-pub(crate) fn check_speed(records: &Records, speed_m_s: f64) -> Result<(), AcousticsError> {
-    let watery = (100.0..=10_000.0).contains(&speed_m_s);
-    records.blame(within("a sound speed in water in m/s", "from 100 to 10 000", speed_m_s, watery))
-}
 
 /// Depth, speeds of compressional and shear waves, density and attenuations, before a
 /// file says anything. What a slash leaves out carries over from the line before: from
@@ -76,7 +68,7 @@ impl Water {
         let expected = "the number of mesh points, the roughness and the depth of the water";
         let [_, roughness_m, depth_m] = env.all(expected)?;
         if roughness_m != 0.0 {
-            note(notes, env, "the roughness is left out");
+            notes.push(env.note("the roughness is left out"));
         }
         let levels = Levels::read(env, depth_m, unit, &mut medium, notes)?;
         let top_m = levels.depth_m[0];
@@ -90,7 +82,7 @@ impl Water {
         options.none_from(2, env, "the third option of the bottom")?;
         let roughness = rest.split_whitespace().next().unwrap_or("0");
         if roughness.trim_end_matches('/').parse().is_ok_and(|value: f64| value != 0.0) {
-            note(notes, env, "the roughness of the bottom is left out");
+            notes.push(env.note("the roughness of the bottom is left out"));
         }
         let (bathymetry, beyond) = match options.letter(1) {
             '~' | '*' => read_interface(files, "bty", env, unit)?,
@@ -165,23 +157,6 @@ impl SurfaceOrBottom {
     }
 }
 
-/// A half-space of its speeds of compressional and shear waves, its density, and the
-/// attenuations of both.
-pub(crate) fn half_space(
-    records: &Records,
-    [speed, shear, density, attenuation, shear_attenuation]: [f64; 5],
-    unit: AttenuationUnit,
-    water_density: f64,
-) -> Result<Boundary, AcousticsError> {
-    let attenuation = unit.db_wavelength(attenuation, speed);
-    let fluid = records.blame(FluidHalfSpace::new(speed, density / water_density, attenuation))?;
-    if shear == 0.0 {
-        return Ok(Boundary::Fluid(fluid));
-    }
-    let attenuation = unit.db_wavelength(shear_attenuation, shear);
-    records.blame(ElasticHalfSpace::new(fluid, shear, attenuation)).map(Boundary::Elastic)
-}
-
 fn read_absorption(env: &mut Records, letter: char) -> Result<Absorption, AcousticsError> {
     match letter {
         ' ' | '_' => Ok(Absorption::None),
@@ -228,10 +203,12 @@ impl Levels {
                 return Err(env.syntax("a depth below that of the level before"));
             }
             if shear != 0.0 && depth_m.is_empty() {
-                note(notes, env, "the shear speed of the water is left out");
+                notes.push(env.note("the shear speed of the water is left out"));
             }
             if attenuation != 0.0 && depth_m.is_empty() && found < 5 {
-                note(notes, env, "the attenuation of the half-space above holds for the water too");
+                notes.push(
+                    env.note("the attenuation of the half-space above holds for the water too"),
+                );
             }
             check_speed(env, speed)?;
             let on_earth = depth.abs() <= MOST_DEPTH_M;

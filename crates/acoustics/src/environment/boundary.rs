@@ -1,4 +1,5 @@
 use crate::complex::Complex;
+use crate::decibel::DB_PER_NEPER;
 use crate::error::{AcousticsError, ascending, length, within};
 
 /// What reflects sound at the surface or at the sea floor.
@@ -127,7 +128,6 @@ impl ElasticHalfSpace {
 
 /// 1/c² of a medium with an attenuation in dB per wavelength.
 fn squared_slowness(speed_m_s: f64, attenuation_db_wavelength: f64) -> Complex {
-    const DB_PER_NEPER: f64 = 8.685_889_638_065_037;
     let loss = attenuation_db_wavelength / (std::f64::consts::TAU * DB_PER_NEPER);
     let speed = Complex::new(speed_m_s, speed_m_s * loss);
     Complex::new(1.0, 0.0) / (speed * speed)

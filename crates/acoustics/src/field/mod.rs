@@ -9,6 +9,7 @@ mod influence;
 mod range_profile;
 mod settings;
 mod shot;
+mod sound_field;
 mod transmission_loss;
 
 pub use arrivals::{Arrival, Arrivals};
@@ -19,4 +20,5 @@ pub use fan::{Beam, LaunchFan};
 pub use range_profile::{RangeProfile, RangeProfiler};
 pub use settings::{ReceiverLayout, Receivers, Source, SourceGeometry, TraceSettings};
 pub(crate) use shot::Shot;
-pub use transmission_loss::{Field, transmission_loss};
+pub use sound_field::Field;
+pub use transmission_loss::transmission_loss;

@@ -1,6 +1,6 @@
 use super::fan::LaunchFan;
 use super::settings::{Source, TraceSettings};
-use super::transmission_loss::DB_PER_NEPER;
+use crate::decibel::DB_PER_NEPER;
 use crate::environment::Section;
 use crate::error::{AcousticsError, within};
 use crate::ray::{Launch, Medium, MediumLimits, Pair, Segment, SegmentSink, Tracer};

@@ -7,7 +7,7 @@ use super::influence::{
     PressureSink, Stations,
 };
 use super::settings::{Receivers, Source, SourceGeometry};
-use super::transmission_loss::Field;
+use super::sound_field::Field;
 use crate::complex::Complex;
 use crate::environment::Section;
 use crate::ray::{Launch, Medium, Ray, Tracer, record};

@@ -1,6 +1,6 @@
 use super::Slice;
 use super::tables::{Start, Tables};
-use crate::field::transmission_loss::DB_PER_NEPER;
+use crate::decibel::DB_PER_NEPER;
 use crate::field::{Beam, LaunchFan, Source};
 use crate::ray::Pair;
 use std::f64::consts::TAU;

@@ -1,13 +1,12 @@
 use super::Slice;
 use super::lanes::Lanes;
 use super::tables::REFERENCE_M_S;
+use crate::decibel::DB_PER_NEPER;
 use crate::environment::{Boundary, FluidHalfSpace};
 use std::f64::consts::TAU;
 
 /// As in the scalar tracer: rays leave a boundary at this grazing angle at least.
 const LEAST_GRAZING: f32 = 1e-4;
-
-const DB_PER_NEPER: f64 = 8.685_889_638_065_037;
 
 /// What reflects the rays of a slice.
 #[derive(Debug, Clone, Copy)]

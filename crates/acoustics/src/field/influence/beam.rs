@@ -1,7 +1,7 @@
+use crate::decibel::DB_PER_NEPER;
 use crate::environment::{AttenuationProfile, Section};
 use crate::field::beam_kind::BeamShape;
 use crate::field::settings::Source;
-use crate::field::transmission_loss::DB_PER_NEPER;
 use crate::ray::{Pair, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
