@@ -1,4 +1,6 @@
-use super::table::{LossTableSettings, TransmissionLossError, TransmissionLossTable, compute_rows};
+use super::error::TransmissionLossError;
+use super::settings::LossTableSettings;
+use super::table::{TransmissionLossTable, compute_rows};
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
 

@@ -1,7 +1,7 @@
 //! Rows that have been computed before, kept in files.
 
 use super::chunk::{self, Chunk};
-use super::table::LossTableSettings;
+use super::settings::LossTableSettings;
 use crate::fingerprint::Fingerprint;
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;

@@ -5,17 +5,19 @@ mod accuracy;
 mod cache;
 mod chunk;
 mod directions;
+mod error;
 mod model;
 mod quality;
 mod row;
+mod settings;
 mod table;
 
 pub use accuracy::{ErrorEstimate, estimate_error};
 pub use cache::{LossCache, table_fingerprint};
 pub use directions::Directions;
-pub use model::TableModel;
+pub use error::TransmissionLossError;
 pub use quality::{BeamClass, Numerics, Quality, UnknownQuality};
+pub use settings::{LARGEST_LOSS_DB, LossTableSettings, TableModel};
 pub use table::{
-    LARGEST_LOSS_DB, LossTableRows, LossTableSettings, TransmissionLossError,
-    TransmissionLossTable, compute_rows, compute_transmission_loss, rows_with_cache,
+    LossTableRows, TransmissionLossTable, compute_rows, compute_transmission_loss, rows_with_cache,
 };

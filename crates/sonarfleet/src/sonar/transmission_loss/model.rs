@@ -1,47 +1,10 @@
 use super::quality::Numerics;
-use super::table::LossTableSettings;
-use crate::fingerprint::hexadecimal;
+use super::settings::{LossTableSettings, dense_beams};
 use crate::grid::Position;
 use crate::sonar::section::{BEHIND_M, Waters};
-use sha2::{Digest, Sha256};
 use sonarfleet_acoustics::AcousticsError;
-use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, Source, TraceSettings};
 use sonarfleet_acoustics::model::{ProfileRequest, PropagationModel};
-
-/// What follows sound along the slices of a table.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub enum TableModel {
-    /// This program's own rays, many at a time.
-    #[default]
-    Native,
-    /// An external program of the BELLHOP family, started once for every slice: tens of
-    /// thousands of times for a table.
-    Bellhop(Executable),
-}
-
-impl TableModel {
-    /// The name by which scenarios and files call it.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Native => "native",
-            Self::Bellhop(_) => "bellhop",
-        }
-    }
-
-    /// What tells this model's rows from another's: the name, and of an external program
-    /// the SHA-256 of its file.
-    pub(super) fn identity(&self) -> String {
-        match self {
-            Self::Native => self.name().to_owned(),
-            Self::Bellhop(program) => {
-                // Without the program there will be no rows to tell apart.
-                let file = std::fs::read(program.program()).unwrap_or_default();
-                format!("{} {}", self.name(), hexadecimal(&Sha256::digest(file)))
-            }
-        }
-    }
-}
 
 /// Intensity along one slice of `count` range steps, by any propagation model: all
 /// beams as dense as those of the densest class, sound speeds as they are.
@@ -76,31 +39,10 @@ pub(super) fn profile_by(
     })
 }
 
-impl LossTableSettings {
-    /// Beams per slice.
-    pub fn beam_count(&self) -> usize {
-        match self.model {
-            TableModel::Native => self.numerics.beam_count(),
-            TableModel::Bellhop(_) => dense_beams(&self.numerics).1,
-        }
-    }
-}
-
 /// A fan over all classes, everywhere as dense as the densest.
 fn dense_fan(numerics: &Numerics) -> Result<LaunchFan, AcousticsError> {
     let (limit_deg, beams) = dense_beams(numerics);
     LaunchFan::uniform(-limit_deg, limit_deg, beams)
-}
-
-/// How far up and down such a fan reaches, degrees, and its number of beams.
-fn dense_beams(numerics: &Numerics) -> (f64, usize) {
-    let (mut inner_deg, mut finest_deg) = (0.0, f64::INFINITY);
-    for class in &numerics.beam_classes {
-        let spacing_deg = 2.0 * (class.limit_deg - inner_deg) / class.beams as f64;
-        finest_deg = spacing_deg.min(finest_deg);
-        inner_deg = class.limit_deg;
-    }
-    (inner_deg, (2.0 * inner_deg / finest_deg).round() as usize + 1)
 }
 
 #[cfg(test)]
@@ -108,7 +50,8 @@ mod tests {
     use super::*;
     use crate::grid::CellId;
     use crate::grid::SurveillanceGrid;
-    use crate::sonar::transmission_loss::{Quality, compute_rows};
+    use crate::sonar::transmission_loss::{Quality, TableModel, compute_rows};
+    use sonarfleet_acoustics::bellhop::Executable;
     use sonarfleet_acoustics::environment::{Boundary, Seabed};
     use sonarfleet_acoustics::model::Native;
     use sonarfleet_acoustics::seawater::SoundSpeedEquation;

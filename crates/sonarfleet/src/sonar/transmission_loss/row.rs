@@ -1,6 +1,6 @@
-use super::model::{TableModel, profile_by};
+use super::model::profile_by;
 use super::quality::Numerics;
-use super::table::{LARGEST_LOSS_DB, LossTableSettings};
+use super::settings::{LARGEST_LOSS_DB, LossTableSettings, TableModel};
 use crate::grid::{CellId, Position, SurveillanceGrid};
 use crate::sonar::section::Waters;
 use sonarfleet_acoustics::AcousticsError;

@@ -1,22 +1,18 @@
 use super::cache::{LossCache, table_fingerprint};
-use super::model::TableModel;
-use super::quality::{Numerics, Quality};
+use super::error::TransmissionLossError;
 use super::row::RowComputer;
+use super::settings::LossTableSettings;
 use crate::grid::{CellId, SurveillanceGrid};
 use crate::sonar::section::Waters;
 use rayon::prelude::*;
-use sonarfleet_acoustics::AcousticsError;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Losses are not given beyond this, dB: nothing is heard there.
-pub const LARGEST_LOSS_DB: f32 = 200.0;
 
 /// Transmission loss from every cell to every cell at the fleet's depth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TransmissionLossTable {
     /// Number of cells.
     pub cell_count: usize,
-    /// [source cell, target cell], dB re 1 m; at most [`LARGEST_LOSS_DB`].
+    /// [source cell, target cell], dB re 1 m; at most [`LARGEST_LOSS_DB`](super::LARGEST_LOSS_DB).
     ///
     /// A source is a point in the middle of its cell; intensity is averaged over
     /// the target cell. On the diagonal it is the intensity half a cell away.
@@ -32,65 +28,6 @@ impl TransmissionLossTable {
     /// Losses from one cell to all, dB.
     pub fn row(&self, source: CellId) -> &[f32] {
         &self.loss_db[source.0 * self.cell_count..(source.0 + 1) * self.cell_count]
-    }
-}
-
-/// What a table is computed for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LossTableSettings {
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Depth of sources and receivers, metres.
-    pub fleet_depth_m: f64,
-    /// Largest distance over which sound is followed, metres; infinite for the
-    /// whole region.
-    pub maximum_range_m: f64,
-    /// How much work goes into it: those of a [`Quality`](super::Quality), as a rule.
-    pub numerics: Numerics,
-    /// What follows sound.
-    pub model: TableModel,
-}
-
-/// Why a table could not be computed.
-#[derive(Debug, thiserror::Error)]
-pub enum TransmissionLossError {
-    /// A setting is outside its range.
-    #[error("{setting} must be positive: found {found}")]
-    NotPositive {
-        /// Which setting.
-        setting: &'static str,
-        /// Its value.
-        found: f64,
-    },
-    /// The environment of a slice is not one.
-    #[error("a slice from cell {}: {reason}", source_cell.0)]
-    Slice {
-        /// The source.
-        source_cell: CellId,
-        /// Why.
-        #[source]
-        reason: AcousticsError,
-    },
-}
-
-impl LossTableSettings {
-    /// The same at the quality that others are compared with.
-    #[must_use]
-    pub fn fine(&self) -> Self {
-        Self { numerics: Quality::Fine.numerics(), ..self.clone() }
-    }
-
-    fn check(&self) -> Result<(), TransmissionLossError> {
-        for (setting, found) in [
-            ("the frequency", self.frequency_hz),
-            ("the fleet's depth", self.fleet_depth_m),
-            ("the largest range", self.maximum_range_m),
-        ] {
-            if found.is_nan() || found <= 0.0 {
-                return Err(TransmissionLossError::NotPositive { setting, found });
-            }
-        }
-        Ok(())
     }
 }
 
@@ -183,7 +120,7 @@ pub fn rows_with_cache(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Quality, estimate_error};
+    use super::super::{Quality, TableModel, estimate_error};
     use super::*;
     use sonarfleet_acoustics::environment::{Boundary, Seabed};
     use sonarfleet_acoustics::seawater::SoundSpeedEquation;
