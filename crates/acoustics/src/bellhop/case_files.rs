@@ -60,7 +60,16 @@ impl CaseFiles {
     /// linear in depth, attenuations at other levels than the sound speed's, or
     /// directions of unequal distances in a run that adds beams up.
     pub fn of(case: &Case, path: &Path) -> Result<Self, AcousticsError> {
-        let texts = write_texts(case)?;
+        let far_m = case.settings.far_m.max(-case.settings.near_m);
+        Self::with_step_m(case, path, (far_m / 1000.0).clamp(1.0, 20.0))
+    }
+
+    /// As [`CaseFiles::of`] with a ray step in metres; 0 lets the program choose.
+    ///
+    /// # Errors
+    /// As [`CaseFiles::of`].
+    pub fn with_step_m(case: &Case, path: &Path, step_m: f64) -> Result<Self, AcousticsError> {
+        let texts = write_texts(case, step_m)?;
         Ok(texts
             .into_iter()
             .fold(Self::new(path), |files, (ending, text)| files.with(ending, text)))

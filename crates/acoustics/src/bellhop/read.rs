@@ -107,7 +107,7 @@ pub(crate) fn read_texts(files: &CaseFiles) -> Result<Reading, AcousticsError> {
     env.blame(within("the range of the box in m", "from 1 to 1e8", far_m, on_earth))?;
     let below = deepest_m > top_m;
     env.blame(within("the depth of the box", "below the surface", deepest_m, below))?;
-    let mut settings = TraceSettings::to_range(far_m);
+    let mut settings = TraceSettings::fine(far_m);
     if deepest_m <= water.deepest_level_m {
         settings.deepest_m = deepest_m;
     }

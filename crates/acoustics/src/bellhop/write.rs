@@ -7,8 +7,11 @@ use crate::seawater::Absorption;
 
 const KM: f64 = 1000.0;
 
-/// The texts of a case, with the endings of their files.
-pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, AcousticsError> {
+/// The texts of a case with a ray step, and the endings of their files.
+pub(crate) fn write_texts(
+    case: &Case,
+    step_m: f64,
+) -> Result<Vec<(&'static str, String)>, AcousticsError> {
     let law = law_letter(case)?;
     let fan = fan_lines(case)?;
     let section = &case.section;
@@ -53,7 +56,6 @@ pub(crate) fn write_texts(case: &Case) -> Result<Vec<(&'static str, String)>, Ac
     env.push(quoted(&run_type.letters()));
     env.extend(fan);
     let far_m = case.settings.far_m.max(-case.settings.near_m);
-    let step_m = (far_m / 1000.0).clamp(1.0, 20.0);
     // Rays touch the bottom of the water, so the box reaches beyond it.
     let box_m = if case.settings.deepest_m <= deepest_m {
         case.settings.deepest_m

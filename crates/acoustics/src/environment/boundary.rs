@@ -105,8 +105,8 @@ impl ElasticHalfSpace {
         Ok(Self { compressional, shear_speed_m_s, shear_attenuation_db_wavelength })
     }
 
-    /// As of a fluid half-space, but with the impedance Z_p cos² 2θ_s + Z_s sin² 2θ_s of
-    /// compressional and shear waves together (COA section 1.6).
+    /// As of a fluid half-space, but with the impedance of compressional and shear waves
+    /// together, Zₚ cos² 2θₛ + Zₛ sin² 2θₛ (COA section 1.6).
     fn reflection(&self, along: f64, across: f64) -> Complex {
         let fluid = &self.compressional;
         let squared_p = squared_slowness(fluid.speed_m_s, fluid.attenuation_db_wavelength);
@@ -133,7 +133,7 @@ fn squared_slowness(speed_m_s: f64, attenuation_db_wavelength: f64) -> Complex {
     Complex::new(1.0, 0.0) / (speed * speed)
 }
 
-/// √(k_x² − k²)/ω of a wave that decays, or travels, away from the boundary.
+/// √(kₓ² − k²)/ω of a wave that decays, or travels, away from the boundary.
 fn decay(along: f64, squared_slowness: Complex) -> Complex {
     let mut under_root = Complex::new(along * along, 0.0) - squared_slowness;
     under_root.im = under_root.im.max(0.0);

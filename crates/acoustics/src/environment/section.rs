@@ -70,7 +70,7 @@ impl Section {
     /// anywhere.
     pub fn check(&self) -> Result<(), AcousticsError> {
         let first_level_m = self.sound_speed.depth_m()[0];
-        let nodes = self.altimetry.iter().flat_map(|surface| surface.range_m());
+        let nodes = self.altimetry.iter().flat_map(Interface::range_m);
         for &range_m in nodes.chain(self.bathymetry.range_m()) {
             let surface_m = self.surface_at_m(range_m);
             let floor_m = self.bathymetry.depth_at_m(range_m);

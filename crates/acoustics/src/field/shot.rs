@@ -3,7 +3,7 @@ use super::beam_kind::{BeamKind, Coherence};
 use super::beam_pattern::BeamPattern;
 use super::fan::{Beam, LaunchFan};
 use super::influence::{
-    ArrivalSink, BeamLaunch, ContributionSink, HitSink, Influence, IntensitySink, Medley,
+    ArrivalSink, BeamLaunch, BeamPhysics, ContributionSink, HitSink, Influence, IntensitySink,
     PressureSink, Stations,
 };
 use super::settings::{Receivers, Source, SourceGeometry};
@@ -114,7 +114,7 @@ impl Shot<'_> {
         strength: impl Fn(&Beam) -> f64 + Sync,
     ) -> S {
         let stations = Stations::new(self.receivers);
-        let medley = Medley::new(self.section, &self.source, self.beams.shape);
+        let physics = BeamPhysics::new(self.section, &self.source, self.beams.shape);
         let tracer = self.tracer();
         let chunks = (MOST_SUMS / self.receivers.count().max(1)).clamp(1, CHUNKS);
         let beams = self.fan.beams();
@@ -123,7 +123,7 @@ impl Shot<'_> {
             .par_chunks(size)
             .enumerate()
             .map(|(chunk, beams)| {
-                let mut influence = Influence::new(&stations, &medley, self.beams, new_sink());
+                let mut influence = Influence::new(&stations, &physics, self.beams, new_sink());
                 for (index, beam) in beams.iter().enumerate() {
                     let (angle_rad, width_rad) = (beam.angle_rad, beam.width_rad);
                     let index = chunk * size + index;

@@ -4,11 +4,11 @@
 
 mod case;
 mod native;
-mod slice;
+mod profile_request;
 
 pub use case::{Case, Run};
 pub use native::Native;
-pub use slice::Slice;
+pub use profile_request::ProfileRequest;
 
 use crate::error::AcousticsError;
 use crate::field::{Arrivals, Field, RangeProfile};
@@ -39,12 +39,15 @@ pub trait PropagationModel: Send + Sync {
 
     /// The intensity over range that tables of transmission loss are made of.
     ///
-    /// Here it is averaged from the field of a [`Slice::case`]; models that have a more
+    /// Here it is averaged from the field of a [`ProfileRequest::case`]; models that have a more
     /// direct way take it.
     ///
     /// # Errors
     /// As [`PropagationModel::solve`], or if the step is not positive.
-    fn intensity_profile(&self, slice: &Slice<'_>) -> Result<RangeProfile, AcousticsError> {
-        Ok(slice.profile(&self.solve(&slice.case()?)?))
+    fn intensity_profile(
+        &self,
+        request: &ProfileRequest<'_>,
+    ) -> Result<RangeProfile, AcousticsError> {
+        Ok(request.profile(&self.solve(&request.case()?)?))
     }
 }

@@ -1,4 +1,4 @@
-use super::{Case, Output, PropagationModel, Run, Slice};
+use super::{Case, Output, ProfileRequest, PropagationModel, Run};
 use crate::error::AcousticsError;
 use crate::field::{RangeProfile, RangeProfiler, Shot};
 use crate::ray::{Medium, MediumLimits};
@@ -38,13 +38,16 @@ impl PropagationModel for Native {
         })
     }
 
-    fn intensity_profile(&self, slice: &Slice<'_>) -> Result<RangeProfile, AcousticsError> {
-        RangeProfiler::new(slice.section, slice.settings).intensity(
-            &slice.source,
-            slice.fan,
-            slice.receiver_depth_m,
-            slice.step_m,
-            slice.count,
+    fn intensity_profile(
+        &self,
+        request: &ProfileRequest<'_>,
+    ) -> Result<RangeProfile, AcousticsError> {
+        RangeProfiler::new(request.section, request.settings).intensity(
+            &request.source,
+            request.fan,
+            request.receiver_depth_m,
+            request.step_m,
+            request.count,
         )
     }
 }

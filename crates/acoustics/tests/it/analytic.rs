@@ -2,13 +2,13 @@
 
 use super::reference::{column, read};
 use sonarfleet_acoustics::environment::{
-    Boundary, FluidHalfSpace, Interface, ProfileLaw, Section, SoundSpeedField,
+    Boundary, FluidHalfSpace, Interface, InterfaceShape, ProfileLaw, Section, SoundSpeedField,
 };
 use sonarfleet_acoustics::field::{
-    BeamShape, Coherence, LaunchFan, RangeProfiler, Receivers, Source, TraceSettings,
-    transmission_loss,
+    BeamCoordinates, BeamKind, BeamShape, Coherence, LaunchFan, RangeProfiler, Receivers, Source,
+    SourceGeometry, TraceSettings, transmission_loss,
 };
-use sonarfleet_acoustics::model::{Native, Output, PropagationModel};
+use sonarfleet_acoustics::model::{Case, Native, Output, PropagationModel, Run};
 use sonarfleet_acoustics::ray::trace;
 use sonarfleet_acoustics::seawater::Absorption;
 
@@ -116,7 +116,7 @@ fn the_surface_image_interferes_as_lloyd_saw() {
 }
 
 /// Depth of a traced ray at a range, linear between its points.
-fn depth_at(ray: &sonarfleet_acoustics::ray::Ray, range: f64) -> Option<f64> {
+pub(crate) fn depth_at(ray: &sonarfleet_acoustics::ray::Ray, range: f64) -> Option<f64> {
     ray.points.windows(2).find(|pair| (pair[0].range_m..=pair[1].range_m).contains(&range)).map(
         |pair| {
             let weight = (range - pair[0].range_m) / (pair[1].range_m - pair[0].range_m);
@@ -217,4 +217,45 @@ fn rays_are_bellhops() {
         compared += 1;
     }
     assert!(compared > 500, "{compared}");
+}
+
+/// A concave mirror in the sea floor: in the section's plane, u away from it along a ray
+/// that meets it at the grazing angle γ, the tube has the width
+/// u + v − 2uv/(R sin γ) per radian v behind it.
+#[test]
+fn a_curvilinear_floor_focuses_as_a_mirror_of_its_radius() {
+    let (source_depth, depth, radius, middle) = (300.0, 1000.0, 1500.0f64, 700.0);
+    let nodes: Vec<f64> = (-20..=20).map(|k| middle + 10.0 * f64::from(k)).collect();
+    let arc = |x: &f64| depth - radius + (radius * radius - (x - middle).powi(2)).sqrt();
+    let floor = Interface::new(nodes.clone(), nodes.iter().map(arc).collect()).unwrap();
+    let profile = SoundSpeedField::profile(vec![0.0, depth], vec![1500.0; 2]).unwrap();
+    let floor = floor.with_shape(InterfaceShape::Curvilinear);
+    let mut section = Section::new(profile, floor, Boundary::Rigid).unwrap();
+    section.absorption = Absorption::None;
+    // To the middle of the mirror at 45°, and 400 m up again; and to the focus of it.
+    let slant = std::f64::consts::SQRT_2;
+    for up in [400.0, 250.0] {
+        let (u, v) = (slant * middle, slant * up);
+        let width = u + v - 2.0 * u * v * slant / radius;
+        let range = middle + up;
+        let exact = (45f64.to_radians().cos() / (range * width.abs())).sqrt();
+        let case = Case {
+            title: "mirror".to_owned(),
+            frequency_hz: 2000.0,
+            section: section.clone(),
+            source_depth_m: vec![source_depth],
+            geometry: SourceGeometry::Point,
+            beam_pattern: None,
+            receivers: Receivers::new(vec![range], vec![depth - up]).unwrap(),
+            fan: LaunchFan::uniform(40.0, 50.0, 2001).unwrap(),
+            beams: BeamKind { shape: BeamShape::Hat, coordinates: BeamCoordinates::RayCentred },
+            run: Run::Arrivals,
+            settings: TraceSettings::to_range(1500.0),
+        };
+        let Output::Arrivals(arrivals) = Native.solve(&case).unwrap() else {
+            panic!("arrivals were expected")
+        };
+        let found: f64 = arrivals[0].at[0].iter().map(|arrival| arrival.amplitude).sum();
+        assert!((found / exact - 1.0).abs() < 0.01, "{up} m: {found} {exact}");
+    }
 }

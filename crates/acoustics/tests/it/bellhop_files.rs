@@ -136,7 +136,7 @@ fn everything_a_case_may_hold_is_read() {
     let kind = BeamKind { shape: BeamShape::Hat, coordinates: BeamCoordinates::RayCentred };
     assert_eq!((case.beams, case.geometry), (kind, SourceGeometry::Line));
     assert_eq!(case.fan, LaunchFan::at(&[-20.0, -10.0, 0.0, 5.0, 20.0]).unwrap());
-    assert_eq!(case.settings, TraceSettings::to_range(5000.0));
+    assert_eq!(case.settings, TraceSettings::fine(5000.0));
     assert_eq!(case.beam_pattern.as_ref().unwrap().level_db(), [0.0, -6.0]);
 }
 
@@ -304,7 +304,7 @@ fn case() -> impl Strategy<Value = Case> {
                     },
                     beams: BeamKind { shape, coordinates },
                     run,
-                    settings: TraceSettings::to_range(9100.0),
+                    settings: TraceSettings::fine(9100.0),
                 }
             },
         )

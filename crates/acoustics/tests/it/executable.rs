@@ -6,7 +6,7 @@ use super::reference::folder;
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::bellhop::{Executable, output_file, read_case};
 use sonarfleet_acoustics::field::{Field, LaunchFan};
-use sonarfleet_acoustics::model::{Case, Native, Output, PropagationModel, Slice};
+use sonarfleet_acoustics::model::{Case, Native, Output, ProfileRequest, PropagationModel};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -143,7 +143,7 @@ fn assert_close_profiles(model: &dyn PropagationModel) {
     const P90_DB: f64 = 0.25;
     let case = read_case(&folder("scs_ib").join("case.env")).unwrap();
     let fan = LaunchFan::graded(&[(12.0, 400), (25.0, 260), (60.0, 140)]).unwrap();
-    let slice = Slice {
+    let slice = ProfileRequest {
         section: &case.section,
         source: case.sources().next().unwrap(),
         fan: &fan,

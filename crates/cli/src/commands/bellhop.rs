@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Value, json};
 use sonarfleet_acoustics::bellhop::{
-    CaseFiles, Executable, Reading, ShadeFile, abandon_all, fatal_text, output_file, print_text,
+    CaseFiles, Executable, Reading, ShadeFile, fatal_text, output_file, print_text,
 };
 use sonarfleet_acoustics::field::Field;
 use sonarfleet_acoustics::model::{Native, Output, PropagationModel, Run};
@@ -110,11 +110,7 @@ fn model(args: &BellhopArgs) -> Result<Box<dyn PropagationModel>> {
         ModelName::Native => Box::new(Native),
         ModelName::Bellhop => {
             let executable = Executable::find()?;
-            // At a signal the program ends with us, and its directory goes.
-            ctrlc::set_handler(|| {
-                abandon_all();
-                std::process::exit(130);
-            })?;
+            super::abandon_programs_on_interrupt()?;
             Box::new(
                 executable.with_timeout(
                     Duration::try_from_secs_f64(args.timeout).unwrap_or(Duration::MAX),

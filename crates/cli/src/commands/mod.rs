@@ -16,6 +16,8 @@ use anyhow::{Result, ensure};
 use serde::Serialize;
 use sonarfleet::scenario::Scenario;
 use sonarfleet::sonar::transmission_loss::LossCache;
+use sonarfleet::sonar::transmission_loss::TableModel;
+use sonarfleet_acoustics::bellhop::abandon_all;
 use std::fmt::Display;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -38,10 +40,26 @@ impl Manner {
 
 /// The scenario of a path, or the embedded one.
 fn scenario(path: Option<&Path>) -> Result<Scenario> {
-    Ok(match path {
+    let scenario = match path {
         Some(path) => Scenario::read(path)?,
         None => Scenario::embedded(),
-    })
+    };
+    if matches!(scenario.loss_model, TableModel::Bellhop(_)) {
+        abandon_programs_on_interrupt()?;
+    }
+    Ok(scenario)
+}
+
+/// At an interrupt, external programs end with us, and their directories go.
+fn abandon_programs_on_interrupt() -> Result<()> {
+    let handler = || {
+        abandon_all();
+        std::process::exit(130);
+    };
+    match ctrlc::set_handler(handler) {
+        Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
+        Err(error) => Err(error.into()),
+    }
 }
 
 /// Where computed transmission loss is kept, if it is.

@@ -8,7 +8,7 @@ use serde_json::json;
 use sonarfleet::mission::{Environment, Theatre, input};
 use sonarfleet::placement::instance;
 use sonarfleet::placement::{Budget, Method, PlacementInput, PlacementProblem};
-use sonarfleet::scenario::{PlacementSection, Scenario};
+use sonarfleet::scenario::PlacementSection;
 use std::time::Instant;
 
 pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
@@ -79,7 +79,7 @@ fn from_instance(args: &PlaceArgs) -> Result<(PlacementInput, Defaults)> {
 }
 
 fn from_scenario(args: &PlaceArgs, manner: Manner) -> Result<(PlacementInput, Defaults)> {
-    let mut scenario = Scenario::read(&args.input)?;
+    let mut scenario = super::scenario(Some(&args.input))?;
     super::check_epoch(&scenario, args.epoch)?;
     if let Some(path) = &args.loss {
         scenario.epochs[args.epoch].loss_file = Some(path.clone());

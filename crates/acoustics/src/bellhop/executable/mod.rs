@@ -18,10 +18,11 @@ use std::time::Duration;
 
 /// An external program of the BELLHOP family, run once for every case in a scratch
 /// directory of its own.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Executable {
     program: PathBuf,
     timeout: Duration,
+    step_m: Option<f64>,
 }
 
 impl Executable {
@@ -43,13 +44,20 @@ impl Executable {
 
     /// The program at a path.
     pub fn new(program: PathBuf) -> Self {
-        Self { program, timeout: Self::TIMEOUT }
+        Self { program, timeout: Self::TIMEOUT, step_m: None }
     }
 
     /// The same program, killed when a run takes longer.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
+    }
+
+    /// The same program with another ray step, metres: 0 lets it choose. Without this,
+    /// steps are 20 m at most, where the program has converged.
+    #[must_use]
+    pub fn with_step_m(self, step_m: f64) -> Self {
+        Self { step_m: Some(step_m), ..self }
     }
 
     /// Where the program lies.
@@ -61,7 +69,11 @@ impl Executable {
     fn output_bytes(&self, case: &Case, ending: &str) -> Result<Vec<u8>, AcousticsError> {
         let scratch = Scratch::new()?;
         // Programs of the family fail on long paths: they get a short one.
-        let files = CaseFiles::of(case, &scratch.directory().join("case"))?;
+        let path = scratch.directory().join("case");
+        let files = match self.step_m {
+            Some(step_m) => CaseFiles::with_step_m(case, &path, step_m)?,
+            None => CaseFiles::of(case, &path)?,
+        };
         files.save()?;
         run(&self.program, &scratch, self.timeout)?;
         let path = files.path(ending);

@@ -12,7 +12,7 @@ const GAUSSIAN_REACH: f64 = 4.0;
 const LEAST_TUBE_M_RAD: f64 = 1e-9;
 
 /// What all beams of a source share.
-pub(crate) struct Medley<'a> {
+pub(crate) struct BeamPhysics<'a> {
     shape: BeamShape,
     frequency: f64,
     source_speed: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Medley<'a> {
     attenuation: Option<&'a AttenuationProfile>,
 }
 
-impl<'a> Medley<'a> {
+impl<'a> BeamPhysics<'a> {
     pub(crate) fn new(section: &'a Section, source: &Source, shape: BeamShape) -> Self {
         let absorption_db_km = section.absorption.db_km(source.frequency_hz);
         Self {
@@ -115,7 +115,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub(super) fn new(medley: &Medley<'_>, segment: &Segment, sigma: f64) -> Self {
+    pub(super) fn new(physics: &BeamPhysics<'_>, segment: &Segment, sigma: f64) -> Self {
         let slowness = segment.slowness_at(sigma);
         let speed = slowness.dot(slowness).sqrt().recip();
         let position = segment.position(sigma);
@@ -130,8 +130,8 @@ impl Place {
             // At constant tangent and along its turning (COA 3.5).
             widening: segment.width(sigma + speed) - width,
             time: segment.time_s(sigma),
-            absorbed: medley.absorbed(segment, sigma),
-            absorption: medley.absorption_at(position.z, slowness),
+            absorbed: physics.absorbed(segment, sigma),
+            absorption: physics.absorption_at(position.z, slowness),
         }
     }
 }
@@ -152,18 +152,24 @@ impl BeamState {
         }
     }
 
-    pub(super) fn leave(&mut self, segment: &Segment, medley: &Medley<'_>) {
-        self.absorbed += medley.absorbed(segment, segment.sigma);
+    pub(super) fn leave(&mut self, segment: &Segment, physics: &BeamPhysics<'_>) {
+        self.absorbed += physics.absorbed(segment, segment.sigma);
     }
 
     /// Half the width of the beam where its tube is `tube` wide, and the share of it
     /// that spreading leaves at its middle.
-    fn half_width(&self, medley: &Medley<'_>, tube: f64, time: f64, speed: f64) -> (f64, f64) {
+    fn half_width(
+        &self,
+        physics: &BeamPhysics<'_>,
+        tube: f64,
+        time: f64,
+        speed: f64,
+    ) -> (f64, f64) {
         let spread = tube * self.launch.width_rad;
-        match medley.shape {
+        match physics.shape {
             BeamShape::Hat => (spread, 1.0),
             BeamShape::Gaussian => {
-                let least = (0.2 * medley.frequency * time).min(PI * speed / medley.frequency);
+                let least = (0.2 * physics.frequency * time).min(PI * speed / physics.frequency);
                 let half_width = spread.max(least);
                 (half_width, spread / (half_width * TAU.sqrt()))
             }
@@ -171,35 +177,28 @@ impl BeamState {
     }
 
     /// How far from the ray the beam reaches at a place, metres.
-    pub(super) fn reach(&self, medley: &Medley<'_>, place: &Place) -> f64 {
-        let (half_width, _) = self.half_width(medley, place.width.abs(), place.time, place.speed);
-        half_width * shape_reach(medley.shape)
+    pub(super) fn reach(&self, physics: &BeamPhysics<'_>, place: &Place) -> f64 {
+        let (half_width, _) = self.half_width(physics, place.width.abs(), place.time, place.speed);
+        half_width * shape_reach(physics.shape)
     }
 
     /// How far above and below a place the beam may reach.
-    pub(super) fn vertical_reach(&self, medley: &Medley<'_>, place: &Place) -> f64 {
+    pub(super) fn vertical_reach(&self, physics: &BeamPhysics<'_>, place: &Place) -> f64 {
         // |z| |tₓ| < reach + |z| |t_z| · change of the reach per metre of path
-        let growth = place.widening.abs() * self.launch.width_rad * shape_reach(medley.shape);
+        let growth = place.widening.abs() * self.launch.width_rad * shape_reach(physics.shape);
         let flatness = place.along.x.abs() - growth * place.along.z.abs();
-        // Gaussians grow in time as well, up to the place and behind it.
-        let reach = self.reach(medley, place)
-            + shape_reach(medley.shape) * self.least_width_growth(medley, place);
+        // Gaussians grow in time as well, up to πλ.
+        let (half_width, _) =
+            self.half_width(physics, place.width.abs(), f64::INFINITY, place.speed);
+        let reach = half_width * shape_reach(physics.shape);
         if flatness > 0.0 { reach / flatness } else { f64::INFINITY }
-    }
-
-    /// The most by which the least width of a Gaussian grows.
-    fn least_width_growth(&self, medley: &Medley<'_>, place: &Place) -> f64 {
-        match medley.shape {
-            BeamShape::Hat => 0.0,
-            BeamShape::Gaussian => PI * place.speed / medley.frequency,
-        }
     }
 
     /// What the beam brings to a point that lies `ahead` of a place along the ray and
     /// `across` from it; nothing beyond its rim.
     pub(super) fn contribution(
         &self,
-        medley: &Medley<'_>,
+        physics: &BeamPhysics<'_>,
         segment: &Segment,
         place: &Place,
         ahead: f64,
@@ -208,17 +207,17 @@ impl BeamState {
         let width = place.width + place.widening * ahead;
         let tube = width.abs().max(LEAST_TUBE_M_RAD);
         let time = place.time + ahead / place.speed;
-        let (half_width, middle) = self.half_width(medley, tube, time, place.speed);
+        let (half_width, middle) = self.half_width(physics, tube, time, place.speed);
         let distance = across / half_width;
-        if distance >= shape_reach(medley.shape) {
+        if distance >= shape_reach(physics.shape) {
             return None;
         }
-        let weight = match medley.shape {
+        let weight = match physics.shape {
             BeamShape::Hat => 1.0 - distance,
             BeamShape::Gaussian => middle * (-0.5 * distance * distance).exp(),
         };
         // Intensity in the tube: cos α · c_r/(c₀ |∂x/∂α|).
-        let intensity = place.speed / (medley.source_speed * tube);
+        let intensity = place.speed / (physics.source_speed * tube);
         let passes_caustic = width * self.last_width < 0.0;
         Some(Contribution {
             beam: self.launch,

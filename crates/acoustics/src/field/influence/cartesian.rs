@@ -13,14 +13,14 @@ impl<S: ContributionSink> Influence<'_, S> {
         for column in self.stations.columns(x0.min(x1), x0.max(x1)) {
             let distance = self.stations.range(column) - segment.start.x;
             let sigma = segment.sigma_at_distance(distance);
-            let place = Place::new(self.medley, segment, sigma);
-            let reach = self.beam.vertical_reach(self.medley, &place);
+            let place = Place::new(self.physics, segment, sigma);
+            let reach = self.beam.vertical_reach(self.physics, &place);
             let depth = place.position.z;
             for index in self.stations.between(column, depth - reach, depth + reach) {
                 let below = self.stations.depth(index) - depth;
                 let (ahead, across) = (below * place.along.z, (below * place.along.x).abs());
                 if let Some(contribution) =
-                    self.beam.contribution(self.medley, segment, &place, ahead, across)
+                    self.beam.contribution(self.physics, segment, &place, ahead, across)
                 {
                     self.sink.add(self.stations.receiver(index), &contribution);
                 }

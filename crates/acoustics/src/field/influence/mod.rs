@@ -10,7 +10,7 @@ mod sinks;
 mod stations;
 
 pub(crate) use arrivals::ArrivalSink;
-pub(crate) use beam::{BeamLaunch, Contribution, Medley};
+pub(crate) use beam::{BeamLaunch, BeamPhysics, Contribution};
 pub(crate) use sinks::{ContributionSink, HitSink, IntensitySink, PressureSink};
 pub(crate) use stations::Stations;
 
@@ -21,7 +21,7 @@ use crate::ray::{Segment, SegmentSink};
 /// Gives what the segments of one beam after another bring to receivers to a sink.
 pub(crate) struct Influence<'a, S> {
     stations: &'a Stations,
-    medley: &'a Medley<'a>,
+    physics: &'a BeamPhysics<'a>,
     kind: BeamKind,
     beam: BeamState,
     sink: S,
@@ -30,11 +30,11 @@ pub(crate) struct Influence<'a, S> {
 impl<'a, S: ContributionSink> Influence<'a, S> {
     pub(crate) fn new(
         stations: &'a Stations,
-        medley: &'a Medley<'a>,
+        physics: &'a BeamPhysics<'a>,
         kind: BeamKind,
         sink: S,
     ) -> Self {
-        Self { stations, medley, kind, beam: BeamState::default(), sink }
+        Self { stations, physics, kind, beam: BeamState::default(), sink }
     }
 
     /// Begins a beam.
@@ -54,6 +54,6 @@ impl<S: ContributionSink> SegmentSink for Influence<'_, S> {
             BeamCoordinates::Cartesian => self.cross_columns(segment),
             BeamCoordinates::RayCentred => self.sweep_across(segment),
         }
-        self.beam.leave(segment, self.medley);
+        self.beam.leave(segment, self.physics);
     }
 }

@@ -8,9 +8,9 @@ const MARGIN: f64 = 1.1;
 impl<S: ContributionSink> Influence<'_, S> {
     /// Deposits on the receivers over which a segment sweeps its normal.
     pub(super) fn sweep_across(&mut self, segment: &Segment) {
-        let ends = [0.0, segment.sigma].map(|sigma| Place::new(self.medley, segment, sigma));
+        let ends = [0.0, segment.sigma].map(|sigma| Place::new(self.physics, segment, sigma));
         let [first, last] = &ends;
-        let widest = self.beam.reach(self.medley, first).max(self.beam.reach(self.medley, last));
+        let widest = self.beam.reach(self.physics, first).max(self.beam.reach(self.physics, last));
         // The segment itself departs from its chord, at a vertex in particular.
         let bend = segment.gradient.dot(segment.gradient).sqrt();
         let reach = MARGIN * widest + bend * segment.sigma * segment.sigma / 8.0;
@@ -23,11 +23,11 @@ impl<S: ContributionSink> Influence<'_, S> {
             for index in depths {
                 let receiver = Pair::new(range, self.stations.depth(index));
                 let Some(sigma) = foot(segment, receiver) else { continue };
-                let place = Place::new(self.medley, segment, sigma);
+                let place = Place::new(self.physics, segment, sigma);
                 let apart = receiver + place.position * -1.0;
                 let across = place.along.cross(apart).abs();
                 if let Some(contribution) =
-                    self.beam.contribution(self.medley, segment, &place, 0.0, across)
+                    self.beam.contribution(self.physics, segment, &place, 0.0, across)
                 {
                     self.sink.add(self.stations.receiver(index), &contribution);
                 }

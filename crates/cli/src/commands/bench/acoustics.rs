@@ -16,14 +16,24 @@ use sonarfleet::sonar::section::Waters;
 use sonarfleet::sonar::transmission_loss::{LossTableSettings, Quality, TableModel, compute_rows};
 use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::environment::{Boundary, FluidHalfSpace, Seabed};
-use sonarfleet_acoustics::field::{FanPart, RangeProfiler, Source, batch_intensity};
+use sonarfleet_acoustics::field::{
+    FanPart, RangeProfile, RangeProfiler, Slice as BatchSlice, Source, TraceSettings,
+    batch_intensity,
+};
 use sonarfleet_acoustics::model::{Output, PropagationModel};
 
 /// Beams of a slice where both programs do the same.
 const BEAMS: usize = 1200;
 
+/// How closely our rays follow speeds between the levels of a profile, m/s.
+const SPEED_TOLERANCE_M_S: f64 = 0.05;
+
 /// Beams of the reference, which our scalar path computes in double precision.
 const REFERENCE_BEAMS: usize = 4800;
+
+/// Ray step of BELLHOP, metres: what its users take for tables, and its own choice in
+/// water of 1000 m.
+const BELLHOP_STEP_M: f64 = 100.0;
 
 /// Bearings of a table as the paper's authors run BELLHOP.
 const BEARINGS: usize = 72;
@@ -70,7 +80,8 @@ struct Table {
 
 pub(super) fn bench(args: &BenchAcousticsArgs, manner: Manner) -> Result<()> {
     let scenario = commands::scenario(args.scenario.as_deref())?;
-    let bellhop = Executable::find()?;
+    let bellhop = Executable::find()?.with_step_m(BELLHOP_STEP_M);
+    commands::abandon_programs_on_interrupt()?;
     let theatre = Theatre::of(&scenario)?;
     let state = theatre.forecast.at(scenario.instant(scenario.epochs[0].snapshot_h))?;
     let firm = FluidHalfSpace::new(1600.0, 1.7, 0.5)?;
@@ -140,7 +151,7 @@ impl Bench<'_> {
             bellhop_s.push(effort.cpu_s);
             bar.set(2 * round + 1, 2 * ROUNDS + 1);
             let (losses, effort) = Effort::of(|| {
-                let once = || all(slices, |slice| self.by_batch(slice));
+                let once = || self.by_batch(slices);
                 (1..REPEATS).try_for_each(|_| once().map(drop)).and_then(|()| once())
             });
             ours = losses?;
@@ -175,17 +186,32 @@ impl Bench<'_> {
         Ok(slices::cell_losses_db(&intensity).collect())
     }
 
-    fn by_batch(&self, slice: &Slice) -> Result<Vec<f64>> {
-        let (fan, settings) = (slices::fan(BEAMS)?, slice.settings());
-        let parts = vec![FanPart { section: &slice.section, fan: &fan, settings: &settings }];
-        let whole = sonarfleet_acoustics::field::Slice { parts, count: slice.count };
-        let source = self.source();
-        let profiles = batch_intensity(&[whole], &source, source.depth_m, slices::STEP_M)?;
-        Ok(slices::cell_losses_db(&profiles[0].intensity).collect())
+    /// All slices in one batch a thread, as those around a source are.
+    fn by_batch(&self, slices: &[Slice]) -> Result<Vec<Vec<f64>>> {
+        let (fan, source) = (slices::fan(BEAMS)?, self.source());
+        let of_thread = |slices: &[Slice]| -> Result<Vec<Vec<f64>>> {
+            let settings: Vec<TraceSettings> =
+                slices.iter().map(|slice| slice.settings(SPEED_TOLERANCE_M_S)).collect();
+            let batch: Vec<BatchSlice<'_>> = slices
+                .iter()
+                .zip(&settings)
+                .map(|(slice, settings)| BatchSlice {
+                    parts: vec![FanPart { section: &slice.section, fan: &fan, settings }],
+                    count: slice.count,
+                })
+                .collect();
+            let profiles = batch_intensity(&batch, &source, source.depth_m, slices::STEP_M)?;
+            let losses =
+                |profile: &RangeProfile| slices::cell_losses_db(&profile.intensity).collect();
+            Ok(profiles.iter().map(losses).collect())
+        };
+        let share = slices.len().div_ceil(rayon::current_num_threads());
+        let shares = slices.par_chunks(share).map(of_thread).collect::<Result<Vec<_>>>()?;
+        Ok(shares.concat())
     }
 
     fn by_scalar(&self, slice: &Slice) -> Result<Vec<f64>> {
-        let profiler = RangeProfiler::new(&slice.section, &slice.settings());
+        let profiler = RangeProfiler::new(&slice.section, &slice.settings(1e-4));
         let (source, fan) = (self.source(), slices::fan(REFERENCE_BEAMS)?);
         let profile =
             profiler.intensity(&source, &fan, source.depth_m, slices::STEP_M, slice.count)?;

@@ -38,9 +38,14 @@ impl Slice {
         self.count as f64 * STEP_M
     }
 
-    /// How rays are followed in it: nothing is shortened.
-    pub(super) fn settings(&self) -> TraceSettings {
-        TraceSettings { near_m: -BEHIND_M, ..TraceSettings::to_range(self.length_m()) }
+    /// How rays are followed in it: nothing is shortened. Every level of the profile is
+    /// kept; between levels, speeds are followed to a tolerance.
+    pub(super) fn settings(&self, speed_tolerance_m_s: f64) -> TraceSettings {
+        TraceSettings {
+            near_m: -BEHIND_M,
+            speed_tolerance_m_s,
+            ..TraceSettings::to_range(self.length_m())
+        }
     }
 
     /// The case that a BELLHOP user would write for it.
@@ -57,7 +62,7 @@ impl Slice {
             fan: fan(beams)?,
             beams: BeamKind { shape: BeamShape::Gaussian, coordinates: BeamCoordinates::Cartesian },
             run: Run::Field(Coherence::Incoherent),
-            settings: self.settings(),
+            settings: TraceSettings::to_range(self.length_m()),
         })
     }
 }

@@ -7,10 +7,10 @@ use sha2::{Digest, Sha256};
 use sonarfleet_acoustics::AcousticsError;
 use sonarfleet_acoustics::bellhop::Executable;
 use sonarfleet_acoustics::field::{LaunchFan, RangeProfile, Source, TraceSettings};
-use sonarfleet_acoustics::model::{PropagationModel, Slice};
+use sonarfleet_acoustics::model::{ProfileRequest, PropagationModel};
 
 /// What follows sound along the slices of a table.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum TableModel {
     /// This program's own rays, many at a time.
     #[default]
@@ -65,7 +65,7 @@ pub(super) fn profile_by(
         amplitude_cutoff: numerics.amplitude_cutoff,
         ..TraceSettings::to_range(length_m)
     };
-    model.intensity_profile(&Slice {
+    model.intensity_profile(&ProfileRequest {
         section: &section,
         source: Source { depth_m: settings.fleet_depth_m, frequency_hz: settings.frequency_hz },
         fan: &dense_fan(numerics)?,

@@ -21,7 +21,7 @@ const MOST_BEAMS: f64 = 20_000.0;
 /// What tables of transmission loss ask of a model: the intensity of a source at one
 /// depth over range, `count` steps long.
 #[derive(Debug, Clone, Copy)]
-pub struct Slice<'a> {
+pub struct ProfileRequest<'a> {
     /// The section of the sea.
     pub section: &'a Section,
     /// The source at its beginning.
@@ -38,7 +38,7 @@ pub struct Slice<'a> {
     pub count: usize,
 }
 
-impl Slice<'_> {
+impl ProfileRequest<'_> {
     /// A case whose field, averaged over range, is the profile: Gaussian beams in equal
     /// steps, incoherent, with receivers at most 25 m apart.
     ///
@@ -65,7 +65,7 @@ impl Slice<'_> {
         })
     }
 
-    /// The profile in a model's answer to the [`Slice::case`].
+    /// The profile in a model's answer to the [`ProfileRequest::case`].
     pub(super) fn profile(&self, output: &Output) -> RangeProfile {
         let field = match output {
             Output::Fields(fields) => fields.first(),
