@@ -398,7 +398,7 @@ impl Default for TransmissionLossSection {
     fn default() -> Self {
         Self {
             model: ModelName::Native,
-            quality: QualityName::Standard,
+            quality: QualityName::Fast,
             maximum_range_km: None,
             directions: Directions::One,
             files: Vec::new(),
