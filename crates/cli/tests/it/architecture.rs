@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Which crate may depend on which.
-const CRATES: [(&str, &[&str]); 5] = [
+const CRATES: [(&str, &[&str]); 6] = [
     ("ocean", &[]),
     ("acoustics", &[]),
     ("sonarfleet", &["sonarfleet-acoustics", "sonarfleet-ocean"]),
+    ("learning", &["sonarfleet"]),
     ("report", &["sonarfleet"]),
     ("cli", &["sonarfleet", "sonarfleet-acoustics", "sonarfleet-ocean", "sonarfleet-report"]),
 ];

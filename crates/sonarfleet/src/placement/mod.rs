@@ -21,4 +21,4 @@ pub use error::PlacementError;
 pub use evaluation::Evaluation;
 pub use method::{Method, UnknownMethod};
 pub use problem::{PlacementInput, PlacementProblem};
-pub use solver::{Budget, Placement, Solver};
+pub use solver::{Budget, Placement, Proposer, Solver};

@@ -26,6 +26,16 @@ pub trait Solver: Send + Sync {
     fn solve(&self, problem: &PlacementProblem, budget: Budget, seed: u64) -> Placement;
 }
 
+/// A method that suggests several layouts quickly, for another to improve.
+pub trait Proposer: Send + Sync {
+    /// Its name, in records.
+    fn name(&self) -> &'static str;
+
+    /// Layouts, the most promising first, feasible or not; none where it cannot
+    /// serve the problem. The same seed gives the same bits with any number of threads.
+    fn propose(&self, problem: &PlacementProblem, seed: u64) -> Vec<Vec<CellId>>;
+}
+
 /// What a method found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placement {
