@@ -55,7 +55,9 @@ pub struct Placement {
 }
 
 impl Placement {
-    pub(super) fn new(
+    /// A placement of these cells, fully evaluated and bounded. `history` is the best
+    /// feasible `J_d` against evaluations.
+    pub fn new(
         method: &'static str,
         problem: &PlacementProblem,
         mut cells: Vec<CellId>,
