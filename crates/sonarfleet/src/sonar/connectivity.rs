@@ -119,12 +119,13 @@ mod tests {
     /// Rounding of a 20 × 20 eigenvalue problem.
     const ROUNDING: f64 = 1e-12;
 
-    fn graph(vertices: usize, edge: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    fn graph(vertices: usize, mut edge: impl FnMut(usize, usize) -> f64) -> Vec<f64> {
         let mut weights = vec![0.0; vertices * vertices];
         for i in 0..vertices {
             for j in 0..i {
-                weights[i * vertices + j] = edge(i, j);
-                weights[j * vertices + i] = edge(i, j);
+                let weight = edge(i, j);
+                weights[i * vertices + j] = weight;
+                weights[j * vertices + i] = weight;
             }
         }
         weights
@@ -146,6 +147,20 @@ mod tests {
             assert!((algebraic_connectivity(&complete, n) - n as f64).abs() < ROUNDING * 20.0);
             let expected_star = if n == 2 { 2.0 } else { 1.0 };
             assert!((algebraic_connectivity(&star, n) - expected_star).abs() < ROUNDING);
+        }
+    }
+
+    #[test]
+    fn links_too_weak_to_square_connect_nothing() {
+        // One pair hears each other well, everybody else hardly.
+        for pair in 0..20 {
+            let mut random = stream(9, "test/weak", pair);
+            let weak = graph(40, |i, j| {
+                let close = i / 2 == j / 2 && i as u64 / 2 == pair;
+                if close { 1.0 } else { 10.0_f64.powf(random.random_range(-320.0..-150.0)) }
+            });
+            let connectivity = algebraic_connectivity(&weak, 40);
+            assert!(connectivity < ROUNDING, "pair {pair}: {connectivity}");
         }
     }
 

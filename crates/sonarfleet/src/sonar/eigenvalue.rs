@@ -8,20 +8,35 @@
 /// Van Loan, *Matrix Computations*, 2013, sections 8.3.1 and 8.4.1): about n³
 /// multiplications, exact to the rounding of the matrix.
 pub(super) fn symmetric_eigenvalue(matrix: &mut [f64], order: usize, index: usize) -> f64 {
-    let (diagonal, off_diagonal_squared) = tridiagonalise(matrix, order);
+    let largest = matrix.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    if largest < SMALLEST {
+        return 0.0;
+    }
+    let (diagonal, off_diagonal_squared) = tridiagonalise(matrix, order, largest);
     multisection(&diagonal, &off_diagonal_squared, index)
 }
+
+/// Matrices of smaller values, whose squares are no longer exact, count as 0.
+const SMALLEST: f64 = 1e-100;
+
+/// Rows that are shorter than this times the matrix's largest value count as 0: they
+/// are far below its rounding, and the squares of still shorter ones are not exact.
+const NEGLIGIBLE: f64 = 1e-25;
 
 /// Diagonal and squared off-diagonal of a tridiagonal matrix with the same
 /// eigenvalues. Rows are taken from the last to the second, so that the remaining
 /// matrix is always the leading block.
-fn tridiagonalise(matrix: &mut [f64], n: usize) -> (Vec<f64>, Vec<f64>) {
+fn tridiagonalise(matrix: &mut [f64], n: usize, largest: f64) -> (Vec<f64>, Vec<f64>) {
+    let negligible = (NEGLIGIBLE * largest).powi(2);
     let mut squares = vec![0.0; n];
     let mut product = vec![0.0; n];
     for k in (1..n).rev() {
         let (block, rest) = matrix.split_at_mut(k * n);
         let v = &mut rest[..k];
         let norm_squared: f64 = v.iter().map(|x| x * x).sum();
+        if norm_squared < negligible {
+            continue;
+        }
         // Row k becomes (0, …, 0, ∓norm, diagonal).
         squares[k] = norm_squared;
         let last = v[k - 1];
@@ -149,6 +164,23 @@ mod tests {
                 })
                 .collect();
             agrees_with_faer(&matrix, n, "random");
+        }
+    }
+
+    #[test]
+    fn values_of_any_size_are_met() {
+        for index in 0..60 {
+            let mut random = stream(6, "test/matrix", index);
+            let n = random.random_range(2..45);
+            // Whole rows are large or so small that their squares vanish.
+            let sizes: Vec<f64> =
+                (0..n).map(|_| 10.0_f64.powf(random.random_range(-330.0..10.0))).collect();
+            let matrix: Vec<f64> = (0..n * n)
+                .map(|k| sizes[k / n].min(sizes[k % n]) * random.random_range(-1.0..1.0))
+                .collect();
+            agrees_with_faer(&matrix, n, "of many sizes");
+            let mut tiny: Vec<f64> = matrix.iter().map(|value| 1e-300 * value).collect();
+            assert!(symmetric_eigenvalue(&mut tiny, n, n - 1).abs() < 1e-280);
         }
     }
 
