@@ -14,7 +14,7 @@ pub struct Linear<'a> {
     pub outputs: usize,
     /// W, [output, input].
     pub weights: &'a [f32],
-    /// b, [output]; none is zero.
+    /// b, one per output; none is zero.
     pub bias: Option<&'a [f32]>,
 }
 

@@ -9,7 +9,7 @@ const BATCH: Dimension = Dimension::Any("batch");
 /// The paper's placement policy: hidden layers that actor and critic share.
 ///
 /// In: `occupancy` and `mask` [batch, cells], 1 where a vehicle is and where one may
-/// be put. Out: `logits` [batch, cells], −10⁶ where the mask is 0, and `value` [batch].
+/// be put. Out: `logits` [batch, cells], −10⁶ where the mask is 0, and `value` `[batch]`.
 #[derive(Debug, Clone, Copy)]
 pub struct ActorCritic<'a> {
     /// The hidden layers, in order.
@@ -45,7 +45,7 @@ impl ActorCritic<'_> {
 /// file makes one step; whoever runs it keeps the state, zeros at an episode's start.
 ///
 /// In: `observation` [batch, observations], `hidden` and `cell` [batch, state]. Out:
-/// `logits` [batch, headings], `value` [batch], `hidden_out` and `cell_out`.
+/// `logits` [batch, headings], `value` `[batch]`, `hidden_out` and `cell_out`.
 #[derive(Debug, Clone, Copy)]
 pub struct RecurrentPilot<'a> {
     /// The layers before the memory, in order.
