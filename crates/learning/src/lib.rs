@@ -5,5 +5,6 @@
 //! [`Solver`](sonarfleet::placement::Solver) and
 //! [`Proposer`](sonarfleet::placement::Proposer).
 
+pub mod files;
 pub mod network;
 pub mod placement;
