@@ -7,3 +7,4 @@
 
 pub mod network;
 pub mod placement;
+pub mod ppo;

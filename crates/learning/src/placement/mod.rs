@@ -1,1 +1,3 @@
 //! Policies that place the fleet.
+
+pub mod paper;
