@@ -8,3 +8,4 @@
 pub mod files;
 pub mod network;
 pub mod placement;
+pub mod ppo;

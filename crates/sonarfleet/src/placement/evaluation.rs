@@ -1,11 +1,11 @@
 //! What a layout achieves.
 
 use crate::sonar::objective::penalised_reward;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// Detection utility and connectivity of a layout, from a full evaluation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {
     /// `J_d`, Equation (6): expected number of targets detected.
     pub detection_utility: f64,

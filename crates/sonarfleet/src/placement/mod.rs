@@ -12,6 +12,7 @@ pub mod coverage;
 pub mod greedy;
 pub mod instance;
 pub mod local_search;
+pub mod mdp;
 pub mod network;
 pub mod problem;
 pub mod random;

@@ -55,8 +55,8 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// A placement of these cells, fully evaluated and bounded. `history` is the best
-    /// feasible `J_d` against evaluations.
+    /// What a method found: the full evaluation of its layout beside the bound.
+    /// `history` is cut to what lies below that evaluation, with which it ends.
     pub fn new(
         method: &'static str,
         problem: &PlacementProblem,
@@ -78,18 +78,19 @@ impl Placement {
 
 /// How much of a budget is used up.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meter {
+pub struct Meter {
     budget: Budget,
     start: Instant,
 }
 
 impl Meter {
-    pub(super) fn new(budget: Budget) -> Self {
+    /// Starts the clock.
+    pub fn new(budget: Budget) -> Self {
         Self { budget, start: Instant::now() }
     }
 
     /// The used share of the budget after so many evaluations: 1 or more at its end.
-    pub(super) fn used(&self, evaluations: u64) -> f64 {
+    pub fn used(&self, evaluations: u64) -> f64 {
         match self.budget {
             Budget::Evaluations(limit) => evaluations as f64 / limit.max(1) as f64,
             Budget::Seconds(limit) => self.start.elapsed().as_secs_f64() / limit.max(1e-9),
