@@ -1,6 +1,7 @@
 //! Why there is nothing to practise on.
 
 use crate::npz::NpzError;
+use crate::sonar::SonarError;
 use crate::sonar::section::WatersError;
 use crate::sonar::transmission_loss::TransmissionLossError;
 use std::path::PathBuf;
@@ -25,6 +26,9 @@ pub enum CurriculumError {
     /// A table cannot be written.
     #[error(transparent)]
     File(#[from] NpzError),
+    /// A drawn level or prior makes no sense; none is expected.
+    #[error(transparent)]
+    Sonar(#[from] SonarError),
     /// No draw gave a problem that a compact fleet can solve.
     #[error("problem {index} of seed {seed}: none of {attempts} draws has a connected disc")]
     NoProblem {

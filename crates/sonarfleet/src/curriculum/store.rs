@@ -3,6 +3,7 @@
 use super::{CurriculumError, TrainingOcean};
 use crate::grid::SurveillanceGrid;
 use crate::npz::{self, Archive, NamedArray, NpzError, Values};
+use crate::sonar::transmission_loss::LARGEST_LOSS_DB;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,15 @@ pub struct PracticeTable {
     pub grid: SurveillanceGrid,
     /// [source cell, target cell], dB.
     pub loss_db: Vec<f32>,
+}
+
+impl PracticeTable {
+    /// Whether a cell lies in the water at the fleet's depth, and not in the ground, where
+    /// nothing is heard: [row, column].
+    pub fn open_cells(&self) -> Vec<bool> {
+        let cells = self.grid.cell_count();
+        (0..cells).map(|cell| self.loss_db[cell * cells + cell] < LARGEST_LOSS_DB).collect()
+    }
 }
 
 /// A directory of tables, one `.npz` file an ocean: `tl` [cell, cell] in dB and `params`,
