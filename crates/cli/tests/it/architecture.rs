@@ -15,12 +15,13 @@ const CRATES: [(&str, &[&str]); 6] = [
 ];
 
 /// Which room of `sonarfleet` may use which.
-const ROOMS: [(&str, &[&str]); 9] = [
+const ROOMS: [(&str, &[&str]); 10] = [
     ("fingerprint", &[]),
     ("grid", &[]),
     ("npz", &[]),
     ("sonar", &["fingerprint", "grid", "npz", "random"]),
     ("placement", &["grid", "npz", "random", "sonar"]),
+    ("curriculum", &["fingerprint", "grid", "npz", "placement", "random", "sonar"]),
     ("navigation", &["grid", "npz", "random", "record"]),
     ("assignment", &["npz", "random"]),
     ("record", &["fingerprint", "grid"]),
