@@ -5,6 +5,7 @@ use super::FileError;
 use super::tensorboard::EventFile;
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
+use sonarfleet::record::{TrainingPoint, TrainingRun};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write};
@@ -105,6 +106,38 @@ pub struct LoggedUpdate {
 pub fn read(path: &Path) -> Result<Vec<LoggedUpdate>, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::io(path))?;
     whole_lines(&text).enumerate().map(|(index, line)| parse(path, index, line)).collect()
+}
+
+/// The log in a folder as a figure draws it. Of the scalars it takes `episodes` (else
+/// the step), `reward`, `detection_utility`, `algebraic_connectivity`, `multiplier`,
+/// `approx_kl` and `entropy`; one that was not logged is NaN.
+///
+/// # Errors
+/// As [`read()`].
+pub fn training_run(folder: &Path, seed: u64) -> Result<TrainingRun, FileError> {
+    let timings = read(&folder.join(TIMINGS))?;
+    let mut seconds: BTreeMap<u64, f64> = BTreeMap::new();
+    let mut total = 0.0;
+    for line in &timings {
+        total += line.scalars.values().sum::<f64>();
+        seconds.insert(line.update, total);
+    }
+    let point = |line: &LoggedUpdate| {
+        let scalar = |name: &str| line.scalars.get(name).copied();
+        let or_nan = |name: &str| scalar(name).unwrap_or(f64::NAN);
+        TrainingPoint {
+            episodes: scalar("episodes").unwrap_or(line.step as f64),
+            seconds: seconds.get(&line.update).copied().unwrap_or(f64::NAN),
+            reward: or_nan("reward"),
+            detection_utility: or_nan("detection_utility"),
+            algebraic_connectivity: or_nan("algebraic_connectivity"),
+            multiplier: or_nan("multiplier"),
+            approx_kl: or_nan("approx_kl"),
+            entropy: or_nan("entropy"),
+        }
+    };
+    let points = read(&folder.join(METRICS))?.iter().map(point).collect();
+    Ok(TrainingRun { seed, points })
 }
 
 fn whole_lines(text: &str) -> impl Iterator<Item = &str> {
@@ -230,6 +263,20 @@ mod tests {
         }
         let event_files = fs::read_dir(killed.path()).unwrap().count() - 2;
         assert_eq!(event_files, 2, "the resumed run has an event file of its own");
+    }
+
+    #[test]
+    fn a_log_is_a_curve() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut log = TrainingLog::open(folder.path(), 0).unwrap();
+        let seconds = [("rollout", 0.5), ("learning", 1.5)];
+        log.write(1, 4096, &[("reward", 1.0), ("episodes", 102.0)], &seconds).unwrap();
+        log.write(2, 8192, &[("reward", 2.0), ("entropy", 0.5)], &seconds).unwrap();
+        let TrainingRun { seed, points } = training_run(folder.path(), 9).unwrap();
+        assert_eq!(seed, 9);
+        let found: Vec<_> = points.iter().map(|p| [p.episodes, p.seconds, p.reward]).collect();
+        assert_eq!(found, [[102.0, 2.0, 1.0], [8192.0, 4.0, 2.0]]);
+        assert!(points[0].entropy.is_nan() && points[1].multiplier.is_nan());
     }
 
     #[test]
