@@ -11,7 +11,16 @@ const CRATES: [(&str, &[&str]); 6] = [
     ("sonarfleet", &["sonarfleet-acoustics", "sonarfleet-ocean"]),
     ("learning", &["sonarfleet"]),
     ("report", &["sonarfleet"]),
-    ("cli", &["sonarfleet", "sonarfleet-acoustics", "sonarfleet-ocean", "sonarfleet-report"]),
+    (
+        "cli",
+        &[
+            "sonarfleet",
+            "sonarfleet-acoustics",
+            "sonarfleet-learning",
+            "sonarfleet-ocean",
+            "sonarfleet-report",
+        ],
+    ),
 ];
 
 /// Which room of `sonarfleet` may use which.

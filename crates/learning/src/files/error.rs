@@ -1,5 +1,6 @@
 //! What can be wrong with a file of training.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -62,6 +63,16 @@ pub enum FileError {
         /// What was asked for.
         expected: String,
     },
+    /// The weights are of a network of other sizes.
+    #[error("{}: of a network with {}, expected {}", path.display(), listed(found), listed(expected))]
+    OtherSizes {
+        /// The file.
+        path: PathBuf,
+        /// Sizes by name, as found.
+        found: BTreeMap<String, usize>,
+        /// Sizes by name, as expected.
+        expected: BTreeMap<String, usize>,
+    },
     /// The file was written by another version of the program.
     #[error(
         "{}: written by version {found}, this is version {expected}; start anew", path.display()
@@ -100,4 +111,9 @@ impl FileError {
         let path = path.into();
         |source| Self::Io { path, source }
     }
+}
+
+fn listed(sizes: &BTreeMap<String, usize>) -> String {
+    let terms: Vec<String> = sizes.iter().map(|(name, size)| format!("{size} {name}")).collect();
+    terms.join(", ")
 }

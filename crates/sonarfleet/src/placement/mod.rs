@@ -1,11 +1,13 @@
 //! Where the fleet should be: the placement problem, its incremental evaluation,
 //! and the methods that solve it.
 
+mod chain;
 mod error;
 mod evaluation;
 mod method;
 
 pub mod annealing;
+pub mod auto;
 pub mod bound;
 pub mod compact;
 pub mod coverage;
@@ -22,4 +24,4 @@ pub use error::PlacementError;
 pub use evaluation::Evaluation;
 pub use method::{Method, UnknownMethod};
 pub use problem::{PlacementInput, PlacementProblem};
-pub use solver::{Budget, Placement, Proposer, Solver};
+pub use solver::{Budget, Contribution, Placement, Proposer, Solver};

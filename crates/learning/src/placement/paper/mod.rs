@@ -2,6 +2,7 @@
 //! trained on one problem under a Lagrange multiplier for connectivity (section 3).
 
 mod environment;
+mod export;
 mod policy;
 mod settings;
 mod solver;

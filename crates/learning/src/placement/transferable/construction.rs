@@ -14,6 +14,10 @@ const LINKED: f32 = 0.25;
 /// Weight of λ₃ beside λ₂ among candidates by connectivity.
 const THIRD_WEIGHT: f32 = 0.3;
 
+/// What is newly found at a target, relative to the largest prior, for the gains around
+/// to be brought up to date.
+const UNNOTICED: f32 = 1e-4;
+
 /// Features are kept within this.
 const LIMIT: f32 = 4.0;
 
@@ -111,6 +115,9 @@ impl<'l> Construction<'l> {
             let found = self.residual[target as usize] * p_d;
             self.residual[target as usize] -= found;
             self.utility += found;
+            if found < UNNOTICED * self.landscape.largest_prior {
+                continue;
+            }
             for &(sonar, p_d) in self.landscape.heard.row(target as usize) {
                 self.gains[sonar as usize] -= found * p_d;
             }

@@ -16,11 +16,17 @@ pub(super) struct SparseRows {
 }
 
 impl SparseRows {
-    fn new(rows: usize, columns: &[u32], value: impl Fn(usize, usize) -> f32) -> Self {
+    /// The large values of some columns of rows that are handed over one by one.
+    fn new<'v>(
+        rows: usize,
+        columns: &[u32],
+        row: impl Fn(usize) -> &'v [f64],
+    ) -> Self {
         let mut sparse = Self::default();
-        for row in 0..rows {
+        for index in 0..rows {
+            let values = row(index);
             for &column in columns {
-                let value = value(row, column as usize);
+                let value = values[column as usize] as f32;
                 if value > NEGLIGIBLE {
                     sparse.entries.push((column, value));
                 }
@@ -28,6 +34,29 @@ impl SparseRows {
             sparse.ends.push(sparse.entries.len());
         }
         sparse
+    }
+
+    /// Columns as rows, of some rows only.
+    fn transposed(&self, columns: usize, rows: &[u32]) -> Self {
+        let mut ends = vec![0; columns + 1];
+        for &row in rows {
+            for &(column, _) in self.row(row as usize) {
+                ends[column as usize + 1] += 1;
+            }
+        }
+        for column in 0..columns {
+            ends[column + 1] += ends[column];
+        }
+        let mut entries = vec![(0, 0.0); ends[columns]];
+        let mut next = ends.clone();
+        for &row in rows {
+            for &(column, value) in self.row(row as usize) {
+                entries[next[column as usize]] = (row, value);
+                next[column as usize] += 1;
+            }
+        }
+        ends.remove(0);
+        Self { ends, entries }
     }
 
     /// Columns and values of a row.
@@ -81,11 +110,9 @@ impl<'p> Landscape<'p> {
         }
         let residual: Vec<f32> = missed.iter().map(|&missed| missed as f32).collect();
         let targets: Vec<u32> = all.iter().copied().filter(|&t| prior[t as usize] > 0.0).collect();
-        let detection = |sonar: usize, target: usize| problem.detection(CellId(sonar))[target] as f32;
-        let hears = SparseRows::new(cells, &targets, detection);
-        let heard = SparseRows::new(cells, &deployable, |target, sonar| detection(sonar, target));
-        let links =
-            SparseRows::new(cells, &all, |p, q| problem.link(CellId(p), CellId(q)) as f32);
+        let hears = SparseRows::new(cells, &targets, |sonar| problem.detection(CellId(sonar)));
+        let heard = hears.transposed(cells, &deployable);
+        let links = SparseRows::new(cells, &all, |from| problem.links(CellId(from)));
 
         let mut first_gains = vec![0.0; cells];
         for &cell in &deployable {

@@ -13,9 +13,11 @@ mod reinforcement;
 mod spectrum;
 mod training;
 mod update;
+mod weights;
 
 pub use decoding::{Decoding, Sample};
 pub use network::{HIDDEN, Network, WEIGHTS};
 pub use observation::{CANDIDATES, FEATURES};
 pub use policy::TransferablePolicy;
 pub use training::{Practice, Progress, School, Training, TrainingSettings};
+pub use weights::KIND;

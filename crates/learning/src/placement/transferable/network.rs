@@ -6,7 +6,7 @@
 )]
 
 use super::observation::{CANDIDATES, FEATURES};
-use pulp::{Arch, NullaryFnOnce};
+use pulp::{Arch, Simd, WithSimd};
 use rand::Rng;
 use sonarfleet::random::Stream;
 
@@ -14,10 +14,10 @@ use sonarfleet::random::Stream;
 pub const HIDDEN: usize = 48;
 
 /// Rows of a matrix that are multiplied at a time; divides [`HIDDEN`].
-const BLOCK: usize = 6;
+const BLOCK: usize = 8;
 
-/// Candidates whose sums are kept in registers at a time; divides [`CANDIDATES`].
-const LANES: usize = 16;
+/// Parts in which sums over candidates are taken; divides [`CANDIDATES`].
+const PARTS: usize = 16;
 
 type Rows<const N: usize> = [[f32; CANDIDATES]; N];
 
@@ -97,6 +97,19 @@ impl Network {
         Self { weights }
     }
 
+    /// W₁, b₁, W₂, `W_c`, b₂, w₃.
+    pub(super) fn parts(&self) -> [&[f32]; 6] {
+        let part = |from: usize, to: usize| &self.weights[from..to];
+        [
+            part(place::FIRST, place::FIRST_BIAS),
+            part(place::FIRST_BIAS, place::SECOND),
+            part(place::SECOND, place::CONTEXT),
+            part(place::CONTEXT, place::SECOND_BIAS),
+            part(place::SECOND_BIAS, place::OUTPUT),
+            part(place::OUTPUT, place::END),
+        ]
+    }
+
     /// Logits of the first `count` candidates.
     pub(super) fn forward(&self, features: &Rows<FEATURES>, count: usize, to: &mut Activations) {
         Arch::new().dispatch(Forward { weights: &self.weights, features, count, to });
@@ -124,12 +137,12 @@ struct Forward<'a> {
     to: &'a mut Activations,
 }
 
-impl NullaryFnOnce for Forward<'_> {
+impl WithSimd for Forward<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        forward(self.weights, self.features, self.count, self.to);
+    fn with_simd<S: Simd>(self, simd: S) {
+        forward(simd, self.weights, self.features, self.count, self.to);
     }
 }
 
@@ -142,12 +155,13 @@ struct Backward<'a> {
     gradient: &'a mut [f32],
 }
 
-impl NullaryFnOnce for Backward<'_> {
+impl WithSimd for Backward<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
-        backward(self.weights, self.features, self.count, self.from, self.slopes, self.gradient);
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { weights, features, count, from, slopes, gradient } = self;
+        backward(simd, weights, features, count, from, slopes, gradient);
     }
 }
 
@@ -159,10 +173,16 @@ fn gaussian(random: &mut Stream) -> f32 {
 }
 
 #[inline(always)]
-fn forward(weights: &[f32], features: &Rows<FEATURES>, count: usize, to: &mut Activations) {
+fn forward<S: Simd>(
+    simd: S,
+    weights: &[f32],
+    features: &Rows<FEATURES>,
+    count: usize,
+    to: &mut Activations,
+) {
     let matrix = &weights[place::FIRST..place::FIRST_BIAS];
     let bias = &weights[place::FIRST_BIAS..place::SECOND];
-    multiply(matrix, bias, features, &mut to.first);
+    multiply(simd, matrix, bias, features, &mut to.first);
     let share = 1.0 / count.max(1) as f32;
     for (mean, row) in to.mean.iter_mut().zip(to.first.iter()) {
         *mean = share * row[..count].iter().sum::<f32>();
@@ -173,7 +193,8 @@ fn forward(weights: &[f32], features: &Rows<FEATURES>, count: usize, to: &mut Ac
     for ((bias, own), row) in bias.iter_mut().zip(own).zip(context) {
         *bias = own + row.iter().zip(&to.mean).map(|(w, mean)| w * mean).sum::<f32>();
     }
-    multiply(&weights[place::SECOND..place::CONTEXT], &bias, &to.first, &mut to.second);
+    let matrix = &weights[place::SECOND..place::CONTEXT];
+    multiply(simd, matrix, &bias, &to.first, &mut to.second);
     to.logits = [0.0; CANDIDATES];
     for (&weight, row) in weights[place::OUTPUT..].iter().zip(to.second.iter()) {
         for (logit, &value) in to.logits.iter_mut().zip(row) {
@@ -182,42 +203,41 @@ fn forward(weights: &[f32], features: &Rows<FEATURES>, count: usize, to: &mut Ac
     }
 }
 
-/// relu(W·x + b) for all candidates.
+/// relu(W·x + b) for all candidates: sums of [`BLOCK`] rows stay in registers.
 #[inline(always)]
-fn multiply<const IN: usize>(
+fn multiply<S: Simd, const IN: usize>(
+    simd: S,
     matrix: &[f32],
     bias: &[f32],
     input: &Rows<IN>,
     output: &mut Rows<HIDDEN>,
 ) {
+    let zero = simd.splat_f32s(0.0);
     for (block, output) in output.chunks_exact_mut(BLOCK).enumerate() {
         let matrix = &matrix[block * BLOCK * IN..(block + 1) * BLOCK * IN];
-        for lane in (0..CANDIDATES).step_by(LANES) {
-            let mut sums = [[0.0_f32; LANES]; BLOCK];
-            for (row, sums) in sums.iter_mut().enumerate() {
-                *sums = [bias[block * BLOCK + row]; LANES];
+        let bias = &bias[block * BLOCK..(block + 1) * BLOCK];
+        for lane in 0..CANDIDATES / S::F32_LANES {
+            let mut sums = [zero; BLOCK];
+            for row in 0..BLOCK {
+                sums[row] = simd.splat_f32s(bias[row]);
             }
             for (i, input) in input.iter().enumerate() {
-                let input: &[f32; LANES] =
-                    input[lane..lane + LANES].try_into().expect("as many lanes");
-                for (row, sums) in sums.iter_mut().enumerate() {
-                    let weight = matrix[row * IN + i];
-                    for (sum, &value) in sums.iter_mut().zip(input) {
-                        *sum = weight.mul_add(value, *sum);
-                    }
+                let value = S::as_simd_f32s(input).0[lane];
+                for row in 0..BLOCK {
+                    let weight = simd.splat_f32s(matrix[row * IN + i]);
+                    sums[row] = simd.mul_add_f32s(weight, value, sums[row]);
                 }
             }
-            for (output, sums) in output.iter_mut().zip(&sums) {
-                for (output, &sum) in output[lane..lane + LANES].iter_mut().zip(sums) {
-                    *output = sum.max(0.0);
-                }
+            for row in 0..BLOCK {
+                S::as_mut_simd_f32s(&mut output[row]).0[lane] = simd.max_f32s(sums[row], zero);
             }
         }
     }
 }
 
 #[inline(always)]
-fn backward(
+fn backward<S: Simd>(
+    simd: S,
     weights: &[f32],
     features: &Rows<FEATURES>,
     count: usize,
@@ -229,8 +249,8 @@ fn backward(
     let Scratch { slope, first_slope, turned } = &mut **scratch;
     let output = &weights[place::OUTPUT..];
     for (unit, (slope, second)) in slope.iter_mut().zip(second.iter()).enumerate() {
-        let mut sum = [0.0_f32; LANES];
-        for (slopes, second) in slopes.chunks_exact(LANES).zip(second.chunks_exact(LANES)) {
+        let mut sum = [0.0_f32; PARTS];
+        for (slopes, second) in slopes.chunks_exact(PARTS).zip(second.chunks_exact(PARTS)) {
             for ((sum, &slope), &value) in sum.iter_mut().zip(slopes).zip(second) {
                 *sum = slope.mul_add(value, *sum);
             }
@@ -257,14 +277,14 @@ fn backward(
         }
     }
     turn(first, turned);
-    outer::<HIDDEN>(slope, turned, &mut gradient[place::SECOND..place::CONTEXT]);
+    outer::<S, HIDDEN>(simd, slope, turned, &mut gradient[place::SECOND..place::CONTEXT]);
 
     let share = 1.0 / count.max(1) as f32;
     for (row, mean) in first_slope.iter_mut().zip(&mean_slope) {
         row[..count].fill(share * mean);
         row[count..].fill(0.0);
     }
-    back(&weights[place::SECOND..place::CONTEXT], slope, first_slope);
+    back(simd, &weights[place::SECOND..place::CONTEXT], slope, first_slope);
     for (slope, first) in first_slope.iter_mut().zip(first.iter()) {
         for (slope, &value) in slope.iter_mut().zip(first) {
             *slope = if value > 0.0 { *slope } else { 0.0 };
@@ -274,7 +294,7 @@ fn backward(
         gradient[place::FIRST_BIAS + unit] += slope.iter().sum::<f32>();
     }
     turn(features, turned);
-    outer::<FEATURES>(first_slope, turned, &mut gradient[place::FIRST..place::FIRST_BIAS]);
+    outer::<S, FEATURES>(simd, first_slope, turned, &mut gradient[place::FIRST..place::FIRST_BIAS]);
 }
 
 /// Candidate by candidate instead of row by row.
@@ -290,26 +310,32 @@ fn turn<const N: usize>(rows: &Rows<N>, turned: &mut [[f32; HIDDEN]; CANDIDATES]
 
 /// Adds Σ over the candidates of slope ⊗ input to a gradient [hidden, N].
 #[inline(always)]
-fn outer<const N: usize>(
+fn outer<S: Simd, const N: usize>(
+    simd: S,
     slopes: &Rows<HIDDEN>,
     inputs: &[[f32; HIDDEN]; CANDIDATES],
     gradient: &mut [f32],
 ) {
-    const ROWS: usize = 4;
+    const ROWS: usize = 8;
     for (block, slopes) in slopes.chunks_exact(ROWS).enumerate() {
-        let mut sums = [[0.0_f32; HIDDEN]; ROWS];
-        for (candidate, input) in inputs.iter().enumerate() {
-            for (sums, slopes) in sums.iter_mut().zip(slopes) {
-                let slope = slopes[candidate];
-                for (sum, &value) in sums.iter_mut().zip(input) {
-                    *sum = slope.mul_add(value, *sum);
+        for part in 0..HIDDEN / S::F32_LANES {
+            let mut sums = [simd.splat_f32s(0.0); ROWS];
+            for (candidate, input) in inputs.iter().enumerate() {
+                let value = S::as_simd_f32s(input).0[part];
+                for row in 0..ROWS {
+                    let slope = simd.splat_f32s(slopes[row][candidate]);
+                    sums[row] = simd.mul_add_f32s(slope, value, sums[row]);
                 }
             }
-        }
-        let gradient = gradient[block * ROWS * N..(block + 1) * ROWS * N].chunks_exact_mut(N);
-        for (gradient, sums) in gradient.zip(&sums) {
-            for (gradient, sum) in gradient.iter_mut().zip(sums) {
-                *gradient += sum;
+            for (row, sum) in sums.into_iter().enumerate() {
+                let mut values = [0.0; HIDDEN];
+                S::as_mut_simd_f32s(&mut values).0[0] = sum;
+                let from = part * S::F32_LANES;
+                let width = S::F32_LANES.min(N.saturating_sub(from));
+                let at = (block * ROWS + row) * N + from;
+                for (gradient, value) in gradient[at..at + width].iter_mut().zip(values) {
+                    *gradient += value;
+                }
             }
         }
     }
@@ -317,25 +343,23 @@ fn outer<const N: usize>(
 
 /// Adds W₂ᵀ · slope.
 #[inline(always)]
-fn back(matrix: &[f32], slopes: &Rows<HIDDEN>, to: &mut Rows<HIDDEN>) {
+fn back<S: Simd>(simd: S, matrix: &[f32], slopes: &Rows<HIDDEN>, to: &mut Rows<HIDDEN>) {
     for (block, to) in to.chunks_exact_mut(BLOCK).enumerate() {
-        for lane in (0..CANDIDATES).step_by(LANES) {
-            let mut sums = [[0.0_f32; LANES]; BLOCK];
-            for (sums, to) in sums.iter_mut().zip(to.iter()) {
-                sums.copy_from_slice(&to[lane..lane + LANES]);
+        for lane in 0..CANDIDATES / S::F32_LANES {
+            let mut sums = [simd.splat_f32s(0.0); BLOCK];
+            for row in 0..BLOCK {
+                sums[row] = S::as_simd_f32s(&to[row]).0[lane];
             }
             for (unit, slopes) in slopes.iter().enumerate() {
-                let slopes: &[f32; LANES] =
-                    slopes[lane..lane + LANES].try_into().expect("as many lanes");
-                let row = unit * HIDDEN + block * BLOCK;
-                for (sums, &weight) in sums.iter_mut().zip(&matrix[row..row + BLOCK]) {
-                    for (sum, &slope) in sums.iter_mut().zip(slopes) {
-                        *sum = weight.mul_add(slope, *sum);
-                    }
+                let slope = S::as_simd_f32s(slopes).0[lane];
+                let weights = &matrix[unit * HIDDEN + block * BLOCK..][..BLOCK];
+                for row in 0..BLOCK {
+                    let weight = simd.splat_f32s(weights[row]);
+                    sums[row] = simd.mul_add_f32s(weight, slope, sums[row]);
                 }
             }
-            for (to, sums) in to.iter_mut().zip(&sums) {
-                to[lane..lane + LANES].copy_from_slice(sums);
+            for row in 0..BLOCK {
+                S::as_mut_simd_f32s(&mut to[row]).0[lane] = sums[row];
             }
         }
     }

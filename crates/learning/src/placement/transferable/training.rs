@@ -75,8 +75,25 @@ impl Default for TrainingSettings {
             clip_coef: 0.2,
             entropy_coef: 0.003,
             max_grad_norm: 1.0,
-            learning_rate: [1e-3, 6e-5],
+            learning_rate: [1e-3, 1e-4],
             aims: [0.85, 1.1],
+        }
+    }
+}
+
+impl TrainingSettings {
+    /// For fine-tuning on one problem: no imitation, half a minute.
+    pub fn fine_tuning(seed: u64) -> Self {
+        Self {
+            seed,
+            taught: 0,
+            imitation_updates: 0,
+            updates: 60,
+            groups: 2,
+            learning_rate: [5e-4, 1e-4],
+            entropy_coef: 0.0,
+            aims: [0.95, 1.15],
+            ..Self::default()
         }
     }
 }
@@ -129,9 +146,11 @@ pub enum Progress {
         of: usize,
         /// Mean reward.
         reward: f64,
+        /// Mean `J_d`.
+        detection_utility: f64,
         /// Mean share of the expected targets that is detected.
         detected: f64,
-        /// Mean λ₂ in multiples of τ′.
+        /// Mean λ₂ in multiples of τ.
         connectivity: f64,
         /// Share of the rollouts with λ₂ ≥ τ.
         feasible: f64,
@@ -143,6 +162,9 @@ pub enum Progress {
         clip_fraction: f64,
     },
 }
+
+/// Adam's ε: far below the gradients, which are small where advantages cancel.
+const EPSILON: f32 = 1e-8;
 
 /// Problems that annealing solves between two reports.
 const TAUGHT_AT_ONCE: usize = 8;
@@ -157,26 +179,35 @@ impl Training {
         Self {
             settings,
             weights: network.weights,
-            adam: Adam::new(WEIGHTS, 1e-5),
+            adam: Adam::new(WEIGHTS, EPSILON),
             layouts: Vec::new(),
             imitated: 0,
             improved: 0,
         }
     }
 
-    /// The same weights, to be improved further under other settings.
-    pub fn resumed_from(weights: Vec<f32>, settings: TrainingSettings) -> Self {
-        let taught = settings.taught;
-        let imitated = settings.imitation_updates;
-        let layouts = vec![Vec::new(); taught];
+    /// A training that goes on from a network and skips stage 1.
+    pub fn improving(network: Network, settings: TrainingSettings) -> Self {
         Self {
-            weights,
-            adam: Adam::new(WEIGHTS, 1e-5),
-            layouts,
-            imitated,
+            weights: network.weights,
+            adam: Adam::new(WEIGHTS, EPSILON),
+            layouts: vec![Vec::new(); settings.taught],
+            imitated: settings.imitation_updates,
             improved: 0,
             settings,
         }
+    }
+
+    /// Updates of both stages done.
+    pub const fn updates_done(&self) -> u64 {
+        (self.imitated + self.improved) as u64
+    }
+
+    /// Layouts built so far.
+    pub const fn episodes(&self) -> u64 {
+        let Self { settings, imitated, improved, .. } = self;
+        let rollouts = settings.groups * settings.rollouts;
+        (*imitated * settings.imitation_episodes + *improved * rollouts) as u64
     }
 
     /// The policy's network as it is now.
@@ -252,7 +283,7 @@ impl Training {
         let summary = self.descend(&all, loss, learning_rate);
         self.imitated += 1;
         if self.imitated == of {
-            self.adam = Adam::new(WEIGHTS, 1e-5);
+            self.adam = Adam::new(WEIGHTS, EPSILON);
         }
         Progress::Imitated {
             done: self.imitated,
@@ -273,20 +304,21 @@ impl Training {
             .collect();
         let problems: Vec<PlacementProblem> =
             tasks.par_iter().map(|&(index, _)| practice(FIRST_IMPROVED + index)).collect();
-        let groups: Vec<(f64, f64, Group)> = tasks
+        let groups: Vec<Rollouts> = tasks
             .iter()
             .zip(&problems)
             .map(|(&(index, aim), problem)| {
                 let landscape = Landscape::new(problem);
                 let threshold = problem.connectivity_threshold();
+                let expected_targets = problem.prior().total();
                 let place = (settings.seed, index);
                 let rollouts = settings.rollouts;
-                let found = group(&network, &landscape, aim * threshold, rollouts, place);
-                (threshold, aim, found)
+                let group = group(&network, &landscape, aim * threshold, rollouts, place);
+                Rollouts { threshold, expected_targets, group }
             })
             .collect();
         let mut lessons: Vec<&Lesson> =
-            groups.iter().flat_map(|(_, _, group)| &group.lessons).collect();
+            groups.iter().flat_map(|rollouts| &rollouts.group.lessons).collect();
         let left = 1.0 - update as f32 / settings.updates as f32;
         let [from, to] = settings.learning_rate;
         let learning_rate = from * (to / from).powf(1.0 - left);
@@ -306,21 +338,18 @@ impl Training {
         self.report(&groups, &summaries)
     }
 
-    fn report(&self, groups: &[(f64, f64, Group)], summaries: &[LossSummary]) -> Progress {
-        let rollouts: usize = groups.iter().map(|(_, _, group)| group.rewards.len()).sum();
-        let share = 1.0 / rollouts as f64;
-        let mut reward = 0.0;
-        let mut connectivity = 0.0;
-        let mut feasible = 0.0;
-        let mut detected = 0.0;
-        for (threshold, aim, group) in groups {
-            for (earned, evaluation) in group.rewards.iter().zip(&group.evaluations) {
-                reward += share * earned;
-                let lambda = evaluation.algebraic_connectivity;
-                connectivity += share * lambda / (aim * threshold);
+    fn report(&self, groups: &[Rollouts], summaries: &[LossSummary]) -> Progress {
+        let count: usize = groups.iter().map(|rollouts| rollouts.group.rewards.len()).sum();
+        let share = 1.0 / count as f64;
+        let (mut reward, mut connectivity, mut feasible) = (0.0, 0.0, 0.0);
+        let (mut detection_utility, mut detected) = (0.0, 0.0);
+        for Rollouts { threshold, expected_targets, group } in groups {
+            reward += share * group.rewards.iter().sum::<f64>();
+            for evaluation in &group.evaluations {
+                connectivity += share * evaluation.algebraic_connectivity / threshold;
                 feasible += share * f64::from(u8::from(evaluation.feasible));
-                let lacking = (1.0 - lambda / (aim * threshold)).max(0.0);
-                detected += share * (earned + 28.5 * lacking) / 40.0;
+                detection_utility += share * evaluation.detection_utility;
+                detected += share * evaluation.detection_utility / expected_targets;
             }
         }
         let mean = |value: fn(&LossSummary) -> f64| {
@@ -330,6 +359,7 @@ impl Training {
             done: self.improved,
             of: self.settings.updates,
             reward,
+            detection_utility,
             detected,
             connectivity,
             feasible,
@@ -351,6 +381,13 @@ impl Training {
         self.adam.step(&mut self.weights, &slopes, learning_rate);
         summary
     }
+}
+
+/// The rollouts of one problem, and what they are measured by.
+struct Rollouts {
+    threshold: f64,
+    expected_targets: f64,
+    group: Group,
 }
 
 /// The taught problems that stage 1 goes back to, kept so that they are not made anew
