@@ -1,11 +1,20 @@
 //! Makes a store of practice oceans, and prints of each what was drawn and the median loss
-//! at 1, 2, 3, 5, 8 and 12 cells: `practice_oceans DIR [COUNT] [SEED] [FIRST]`.
+//! within a cell and at 1, 2, 3, 5, 8 and 12 cells: `practice_oceans DIR [COUNT] [SEED] [FIRST]`.
 //!
 //! `practice_oceans --numerics [COUNT] [SEED]` prints how long tables take instead, and how
 //! far they are from `fast` and from `fine` ones on three sources.
+//!
+//! `practice_oceans --problems DIR [COUNT] [SEED] [OCEANS]` draws problems from the first
+//! oceans of the store's seed 1 and prints what was drawn, with the compact disc that a
+//! fleet would be.
 
-use sonarfleet::curriculum::{OceanStore, PracticeTable, TrainingOcean};
+use sonarfleet::curriculum::{
+    LossCurve, OceanStore, PracticeTable, TrainingOcean, practice_problem,
+};
 use sonarfleet::grid::CellId;
+use sonarfleet::placement::compact::best_disc;
+use sonarfleet::placement::greedy::ConnectedGreedy;
+use sonarfleet::placement::{Budget, PlacementProblem, Solver};
 use sonarfleet::sonar::transmission_loss::{
     ErrorEstimate, LossTableSettings, Quality, compute_rows,
 };
@@ -18,6 +27,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let number = |at: usize, otherwise: u64| -> Result<u64, Box<dyn Error>> {
         Ok(arguments.get(at).map_or(Ok(otherwise), |text| text.parse())?)
     };
+    if first == "--problems" {
+        let directory = arguments.get(1).ok_or("--problems needs the store's directory")?;
+        return problems(directory, number(2, 10)?, number(3, 1)?, number(4, 30)?);
+    }
     let (count, seed) = (number(1, 10)?, number(2, 1)?);
     if first == "--numerics" {
         return (0..count).try_for_each(|index| compare(seed, index));
@@ -60,8 +73,7 @@ fn describe(ocean: &TrainingOcean) -> String {
 fn medians(table: &PracticeTable) -> String {
     let PracticeTable { grid, loss_db } = table;
     let cells = grid.cell_count();
-    let mut text = String::new();
-    for distance in [0.0, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0] {
+    let median = |distance: f64| {
         let mut losses: Vec<f32> = grid
             .cells()
             .flat_map(|a| grid.cells().map(move |b| (a, b)))
@@ -72,9 +84,9 @@ fn medians(table: &PracticeTable) -> String {
             .map(|(a, b)| loss_db[a.0 * cells + b.0])
             .collect();
         losses.sort_by(f32::total_cmp);
-        text += &format!(" {:5.1}", losses[losses.len() / 2]);
-    }
-    text
+        format!("{:5.1}", losses[losses.len() / 2])
+    };
+    [0.0, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0].map(median).join(" ")
 }
 
 fn compare(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
@@ -102,6 +114,56 @@ fn compare(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
         let ErrorEstimate { compared, median_db, p90_db, p99_db, .. } = estimate;
         println!(
             "     {what}: {compared} losses, median {median_db:.2}, p90 {p90_db:.2}, p99 {p99_db:.2} dB"
+        );
+    }
+    Ok(())
+}
+
+fn problems(directory: &str, count: u64, seed: u64, oceans: u64) -> Result<(), Box<dyn Error>> {
+    let tables = OceanStore::new(directory).tables(1, oceans, &|_, _| {})?;
+    for index in 0..count {
+        let start = Instant::now();
+        let input = practice_problem(seed, index, &tables)?;
+        let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+        let curve_of = |loss_db: &[f32]| {
+            LossCurve::of(&PracticeTable { grid: input.grid, loss_db: loss_db.to_vec() })
+        };
+        let reach = |curve: &LossCurve, heard: &dyn Fn(f64) -> bool| {
+            let last = (10..140)
+                .map(|tenth| 0.1 * f64::from(tenth))
+                .filter(|&r| heard(curve.loss_db(r)))
+                .last();
+            last.unwrap_or(0.0)
+        };
+        let curve = curve_of(&input.detection_loss_db);
+        let sonar = &input.sonar;
+        let detection =
+            reach(&curve, &|loss| sonar.model.probability(sonar.snr_db(CellId(0), loss)) > 0.5);
+        let links =
+            curve_of(input.communication_loss_db.as_ref().unwrap_or(&input.detection_loss_db));
+        let modem = &input.modem;
+        let link =
+            reach(&links, &|loss| modem.model.packet_success(modem.snr_db(CellId(0), loss)) > 0.5);
+        let problem = PlacementProblem::new(&input)?;
+        let disc = problem.evaluate(&best_disc(&problem));
+        let spread = ConnectedGreedy.solve(&problem, Budget::Evaluations(1), 1).evaluation;
+        println!(
+            "{index:4} {milliseconds:4.0} ms {}×{} of {:.2} km, SL {:5.1} ({detection:.1} cells), SLc {:5.1} ({link:.1} cells), G {}, τ {:.2}, ΣP_T {:.1}, {} excluded, {} fixed: disc J_d {:5.2} λ₂ {:5.2}, connected greedy J_d {:5.2} λ₂ {:5.2} {}",
+            input.grid.columns,
+            input.grid.rows,
+            1e-3 * input.grid.cell_width_m,
+            sonar.source_level_db,
+            modem.source_level_db,
+            input.vehicles,
+            input.connectivity_threshold,
+            input.prior.total(),
+            input.deployable.as_ref().map_or(0, |mask| mask.iter().filter(|&&d| !d).count()),
+            input.fixed_sensors.len(),
+            disc.detection_utility,
+            disc.algebraic_connectivity,
+            spread.detection_utility,
+            spread.algebraic_connectivity,
+            if spread.feasible { "feasible" } else { "infeasible" },
         );
     }
     Ok(())

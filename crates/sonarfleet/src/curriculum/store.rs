@@ -85,7 +85,15 @@ impl OceanStore {
     /// # Errors
     /// Where it cannot be computed or written.
     pub fn table(&self, seed: u64, index: u64) -> Result<PracticeTable, CurriculumError> {
-        let ocean = TrainingOcean::draw(seed, index);
+        self.table_of(&TrainingOcean::draw(seed, index), seed, index)
+    }
+
+    fn table_of(
+        &self,
+        ocean: &TrainingOcean,
+        seed: u64,
+        index: u64,
+    ) -> Result<PracticeTable, CurriculumError> {
         let path = self.path(seed, index);
         let fingerprint = ocean.fingerprint();
         let grid = ocean.grid;
@@ -150,4 +158,49 @@ fn read(
     let cells = grid.cell_count();
     let losses = archive.f64s_of_shape("tl", &[cells, cells])?;
     Ok(Some(losses.values.into_iter().map(|loss| loss as f32).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A drawn ocean with a grid so small that its table takes no time.
+    fn small_ocean(index: u64) -> TrainingOcean {
+        let mut ocean = TrainingOcean::draw(1, index);
+        (ocean.grid.columns, ocean.grid.rows) = (3, 2);
+        ocean
+    }
+
+    #[test]
+    fn tables_are_kept_and_found_again() {
+        let home = tempfile::tempdir().unwrap();
+        let store = OceanStore::new(home.path().join("not/there/yet"));
+        let ocean = small_ocean(0);
+        let made = store.table_of(&ocean, 1, 0).unwrap();
+        assert_eq!(made.loss_db, ocean.transmission_loss(&|_, _| {}).unwrap().loss_db);
+        assert_eq!(made.open_cells(), [true; 6]);
+
+        // What is found is what the file says, not what would be computed.
+        let loss_db = vec![61.5; 36];
+        let path = store.path(1, 0);
+        let bytes = Archive::open(&path).unwrap().bytes("params").unwrap();
+        let parameters: Parameters = serde_json::from_slice(&bytes).unwrap();
+        store.keep(&path, &parameters, ocean.grid, &loss_db).unwrap();
+        assert_eq!(store.table_of(&ocean, 1, 0).unwrap().loss_db, loss_db);
+
+        // The file of another ocean, and a damaged one, are made again.
+        let mut lower = ocean.clone();
+        lower.settings.frequency_hz *= 0.5;
+        assert_ne!(store.table_of(&lower, 1, 0).unwrap().loss_db, loss_db);
+        fs::write(&path, "no archive").unwrap();
+        assert_eq!(store.table_of(&ocean, 1, 0).unwrap(), made);
+        assert!(Archive::open(&path).unwrap().contains("tl"));
+    }
+
+    #[test]
+    fn ground_is_not_open() {
+        let grid = SurveillanceGrid { columns: 2, rows: 1, cell_width_m: 1.0, cell_height_m: 1.0 };
+        let table = PracticeTable { grid, loss_db: vec![50.0, 70.0, 200.0, 200.0] };
+        assert_eq!(table.open_cells(), [true, false]);
+    }
 }

@@ -24,7 +24,11 @@ const OCEANS_VERSION: u32 = 1;
 /// Equation for the speed of sound: this one holds in cold water too.
 const EQUATION: SoundSpeedEquation = SoundSpeedEquation::ChenMillero;
 
-/// The fleet keeps so far from the floor, as a share of the depth.
+/// The fleet is no shallower and no deeper than this, metres.
+const SHALLOWEST_M: f64 = 30.0;
+const DEEPEST_M: f64 = 300.0;
+
+/// The fleet is no deeper than this share of the depth.
 const DEEPEST_SHARE: f64 = 0.9;
 
 /// An ocean to practise in, with the grid on it and what decides its transmission loss.
@@ -44,8 +48,8 @@ impl TrainingOcean {
     /// Ocean number `index` of a seed.
     ///
     /// Mostly 30 × 30 cells of 1.03 km, else 18–36 columns and rows of 0.6–1.6 km; 1 kHz,
-    /// else 300–3000 Hz; a fleet 30–300 m deep. In one of twelve the floor comes up to the
-    /// fleet in places: nothing can be there.
+    /// else 300–3000 Hz; a fleet 30–300 m deep. In a few the floor comes up to the fleet in
+    /// places: nothing can be there.
     pub fn draw(seed: u64, index: u64) -> Self {
         let mut random = stream(seed, "curriculum/ocean", index);
         let grid = draw_grid(&mut random);
@@ -171,7 +175,8 @@ fn draw_bottom(random: &mut Stream) -> FluidHalfSpace {
     weighted(random, &choices).half_space()
 }
 
-/// A depth for the fleet over the floor: over all of it, but sometimes only over most.
+/// A depth for the fleet: above all of the floor; sometimes, where the floor comes up high
+/// enough, above most of it.
 fn draw_depth(random: &mut Stream, grid: &SurveillanceGrid, ocean: &EnsembleOcean) -> f64 {
     let (half_width_m, half_height_m) = (0.5 * grid.width_m(), 0.5 * grid.height_m());
     let mut floor_m: Vec<f64> = grid
@@ -182,7 +187,77 @@ fn draw_depth(random: &mut Stream, grid: &SurveillanceGrid, ocean: &EnsembleOcea
         })
         .collect();
     floor_m.sort_by(f64::total_cmp);
-    let shoals = if happens(random, 1.0 / 12.0) { floor_m.len() / 12 } else { 0 };
-    let deepest_m = (DEEPEST_SHARE * floor_m[shoals]).clamp(35.0, 300.0);
-    between(random, 30.0, deepest_m).round()
+    if happens(random, 1.0 / 12.0) {
+        let most = floor_m.len() / 12;
+        let depth_m = floor_m[random.random_range(1..=most)].round();
+        // Over a flat floor there is no such depth.
+        if depth_m < DEEPEST_M && floor_m.partition_point(|&floor| floor.round() <= depth_m) <= most
+        {
+            return depth_m;
+        }
+    }
+    let deepest_m = (DEEPEST_SHARE * floor_m[0]).clamp(35.0, DEEPEST_M);
+    between(random, SHALLOWEST_M, deepest_m).round()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_drawn_is_in_range_and_repeats() {
+        let mut shoals = 0;
+        for index in 0..200 {
+            let drawn = TrainingOcean::draw(2, index);
+            assert_eq!(drawn, TrainingOcean::draw(2, index));
+            let TrainingOcean { grid, ocean, settings, bottom } = &drawn;
+            assert!((18..=36).contains(&grid.columns) && (18..=36).contains(&grid.rows));
+            assert!((600.0..=1600.0).contains(&grid.cell_width_m));
+            assert!((300.0..=3000.0).contains(&settings.frequency_hz));
+            assert!((30.0..=300.0).contains(&settings.fleet_depth_m));
+            assert!((1450.0..=5250.0).contains(&bottom.speed_m_s));
+            assert!((10.0..=120.0).contains(&ocean.column.mixed_layer_m));
+            let (mut in_ground, half_m) = (0, [0.5 * grid.width_m(), 0.5 * grid.height_m()]);
+            for cell in grid.cells() {
+                let centre = grid.centre(cell);
+                let (x, y) = (centre.east_m - half_m[0], centre.north_m - half_m[1]);
+                let floor_m = ocean.relief.depth_m(x, y);
+                in_ground += usize::from(floor_m <= settings.fleet_depth_m);
+                for depth in [0.0, 50.0, 150.0, 500.0].into_iter().filter(|&z| z < floor_m) {
+                    let (temperature, salinity) = ocean.water(x, y, depth);
+                    assert!((-1.9..=33.0).contains(&temperature), "{index}: {temperature} °C");
+                    assert!((30.0..=39.5).contains(&salinity), "{index}: {salinity}");
+                }
+            }
+            shoals += usize::from(in_ground > 0);
+            assert!(
+                12 * in_ground <= 2 * grid.cell_count(),
+                "{index}: {in_ground} cells in the ground"
+            );
+        }
+        assert!((2..40).contains(&shoals), "{shoals} of 200 with shoals");
+    }
+
+    #[test]
+    fn oceans_differ_and_so_do_their_fingerprints() {
+        let prints: std::collections::BTreeSet<String> =
+            (0..20).map(|index| TrainingOcean::draw(1, index).fingerprint()).collect();
+        assert_eq!(prints.len(), 20);
+        let ocean = TrainingOcean::draw(1, 0);
+        let mut other = ocean.clone();
+        other.ocean.relief.middle_m += 1e-9;
+        assert_ne!(ocean.fingerprint(), other.fingerprint());
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_bit() {
+        let mut ocean = TrainingOcean::draw(1, 1);
+        (ocean.grid.columns, ocean.grid.rows) = (4, 3);
+        let [one, two] = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| ocean.transmission_loss(&|_, _| {})).unwrap()
+        });
+        assert_eq!(one, two);
+        assert!(one.loss_db.iter().all(|loss| (40.0..110.0).contains(loss)));
+    }
 }

@@ -1,7 +1,7 @@
 //! The undisturbed water column of an ensemble ocean: a mixed layer over layers in which
 //! temperature and salinity go over, each at its own depth scale, into those of the deep.
 //!
-//! T(z) = T_deep + Σᵢ ΔTᵢ·F((z − h)/Hᵢ), and S(z) alike, with the mixed layer's depth h and
+//! T(z) = T∞ + Σᵢ ΔTᵢ·F((z − h)/Hᵢ), and S(z) alike, with the mixed layer's depth h and
 //! F(s) = e^(−s²/(1 + s)) below it, 1 above: level at the mixed layer, exponential far below.
 //! A thin layer with ΔT > 0 is a seasonal thermocline, a thick one the permanent one; ΔT < 0
 //! puts cold water on top of warmer, as in winter at high latitudes.
