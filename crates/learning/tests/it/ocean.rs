@@ -35,7 +35,7 @@ pub(crate) fn problem(
         detection_loss_db: losses_db,
         communication_loss_db: None,
         sonar: PassiveSonar {
-            source_level_db: 125.0,
+            source_level_db: 130.0,
             noise_level_db: NoiseLevel::Uniform(65.0),
             directivity_index_db: 0.0,
             detection_threshold_db: 0.0,
