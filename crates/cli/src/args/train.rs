@@ -69,7 +69,7 @@ pub(crate) struct TrainPlacementArgs {
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) seconds: Option<f64>,
     /// Practice oceans to train over
-    #[arg(long, default_value_t = 120, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 84, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) oceans: u64,
     /// Where practice oceans are kept [default: beside the cache of transmission loss]
     #[arg(long, value_name = "DIR")]

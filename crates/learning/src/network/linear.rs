@@ -4,6 +4,7 @@ use super::matrix::{matrix, matrix_mut, multiply, multiply_add};
 use super::orthogonal::orthogonal;
 use super::sparse::SparseRows;
 use super::vector::wide;
+use ndarray::Axis;
 use rayon::prelude::*;
 use sonarfleet::random::Stream;
 
@@ -44,9 +45,9 @@ impl Linear {
                     row.copy_from_slice(bias);
                 }
                 multiply_add(
-                    matrix_mut(y, self.outputs),
-                    matrix(x, self.inputs),
-                    matrix(w, self.outputs),
+                    &mut matrix_mut(y, self.outputs),
+                    &matrix(x, self.inputs),
+                    &matrix(w, self.outputs),
                 );
             });
     }
@@ -64,7 +65,7 @@ impl Linear {
             .par_chunks_mut(ROWS_PER_TASK * self.inputs)
             .zip(y_gradient.par_chunks(ROWS_PER_TASK * self.outputs))
             .for_each(|(x, y)| {
-                multiply(matrix_mut(x, self.inputs), matrix(y, self.outputs), w.transpose());
+                multiply(&mut matrix_mut(x, self.inputs), &matrix(y, self.outputs), &w.t());
             });
     }
 
@@ -94,8 +95,9 @@ impl Linear {
         let y = matrix(y_gradient, self.outputs);
         gradient.par_chunks_mut(ROWS_PER_TASK * self.outputs).enumerate().for_each(|(task, w)| {
             let inputs = w.len() / self.outputs;
-            let part = x.subcols(task * ROWS_PER_TASK, inputs);
-            multiply(matrix_mut(w, self.outputs), part.transpose(), y);
+            let first = task * ROWS_PER_TASK;
+            let part = x.slice_axis(Axis(1), (first..first + inputs).into());
+            multiply(&mut matrix_mut(w, self.outputs), &part.t(), &y);
         });
     }
 }

@@ -6,7 +6,7 @@ use sonarfleet::random::Stream;
 
 /// Rules of an environment with numbered actions. The state of an episode is apart, so
 /// that many episodes share the rules and a checkpoint holds them all.
-pub trait Environment: Sync {
+pub trait Environment: Send + Sync {
     /// State of an episode.
     type State: Clone + Send + Serialize + DeserializeOwned;
     /// What is told about an episode when it ends.

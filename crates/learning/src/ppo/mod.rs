@@ -3,6 +3,8 @@
 
 mod advantage;
 mod environment;
+#[cfg(test)]
+mod gradient_tests;
 mod loss;
 mod rollout;
 mod settings;

@@ -159,6 +159,11 @@ impl<E: Environment, N: ActorCritic> Trainer<E, N> {
     /// Plays a rollout and learns from it. `progress`, the share of the training that is
     /// done, from 0 to 1, is what the schedules go by.
     pub fn update(&mut self, progress: f64) -> Update<E::Outcome> {
+        // From inside the pool its tasks start without a change of thread.
+        rayon::scope(|_| self.update_in_pool(progress))
+    }
+
+    fn update_in_pool(&mut self, progress: f64) -> Update<E::Outcome> {
         let settings = &self.settings;
         let (learning_rate, ent_coef) = settings.scheduled(progress);
         let episodes = play(

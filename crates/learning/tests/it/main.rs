@@ -1,3 +1,6 @@
 //! The tests of the crate as a whole.
 
 mod onnx;
+mod ocean;
+mod paper;
+mod ppo;

@@ -6,3 +6,4 @@ mod navigation;
 mod navigation_instance;
 mod placement;
 mod placement_instance;
+mod placement_mdp;

@@ -62,20 +62,20 @@ impl Default for TrainingSettings {
     fn default() -> Self {
         Self {
             seed: 1,
-            taught: 256,
-            teacher_evaluations: 1_500_000,
-            imitation_updates: 600,
+            taught: 96,
+            teacher_evaluations: 250_000,
+            imitation_updates: 400,
             imitation_episodes: 16,
             imitation_learning_rate: [2e-3, 2e-4],
-            updates: 500,
+            updates: 1000,
             groups: 4,
             rollouts: 32,
             update_epochs: 2,
             minibatches: 4,
             clip_coef: 0.2,
-            entropy_coef: 0.003,
+            entropy_coef: 0.002,
             max_grad_norm: 1.0,
-            learning_rate: [1e-3, 1e-4],
+            learning_rate: [2e-3, 2e-4],
             aims: [0.85, 1.1],
         }
     }

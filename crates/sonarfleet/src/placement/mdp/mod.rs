@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 use std::fmt::Debug;
 
 /// A placement problem as a Markov decision process whose actions are cells.
-pub trait PlacementMdp: Sync {
+pub trait PlacementMdp: Send + Sync {
     /// State of an episode.
     type State: Clone + Debug + Send + Serialize + DeserializeOwned;
 
