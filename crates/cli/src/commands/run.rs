@@ -8,7 +8,7 @@ use serde_json::json;
 use sonarfleet::mission::{Event, Mission, Theatre};
 use sonarfleet::navigation::{NamedRoute, write_routes};
 use sonarfleet::record::{
-    Checkpoint, EpochRecord, LossTableMetrics, Provenance, RunDirectory, RunRecord, write_run,
+    Checkpoint, EpochRecord, LossTableMetrics, PlacementPart, Provenance, RunDirectory, RunRecord, write_run,
 };
 use sonarfleet::scenario::Scenario;
 use sonarfleet::sonar::transmission_loss::LossCache;
@@ -151,7 +151,7 @@ fn summary(record: &EpochRecord, epochs: usize) -> String {
         record.seconds.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1} s")).collect();
     format!(
         "epoch {}/{epochs}  {}  J_d {:.2} of at most {:.2}, λ₂ {:.3} ({verdict}); \
-         {} of {} vehicles on their posts, mean travel time {:.1} h\n  \
+         {} of {} vehicles on their posts, mean travel time {:.1} h\n{}  \
          transmission loss: {}\n{}  {}",
         record.epoch + 1,
         record.time,
@@ -161,12 +161,28 @@ fn summary(record: &EpochRecord, epochs: usize) -> String {
         numbers.arrived,
         record.routes.len(),
         numbers.mean_travel_time_h,
+        placement_summary(&numbers.placement_parts),
         loss_summary(&numbers.transmission_loss),
         numbers.communication_loss.as_ref().map_or_else(String::new, |loss| {
             format!("  communication loss: {}\n", loss_summary(loss))
         }),
         times.join(", "),
     )
+}
+
+/// What each part of the placement method contributed; nothing where it has one part.
+fn placement_summary(parts: &[PlacementPart]) -> String {
+    let part = |part: &PlacementPart| {
+        let note = if part.feasible { "" } else { " (infeasible)" };
+        format!("{} {:.2}{note}", part.by, part.detection_utility)
+    };
+    match parts {
+        [] => String::new(),
+        parts => {
+            let parts: Vec<String> = parts.iter().map(part).collect();
+            format!("  placement: J_d of {}\n", parts.join(", "))
+        }
+    }
 }
 
 /// How a table was made, and how far it is from the best.

@@ -53,6 +53,19 @@ function lossRows(name, table) {
   ];
 }
 
+// Parts of the placement method in any epoch, in the order of their work; the last
+// part's layout is the method's.
+function parts() {
+  const names = run.epochs.flatMap((e) => e.metrics.placement_parts.slice(0, -1).map((p) => p.by));
+  return [...new Set(names)];
+}
+
+function partOf(m, by) {
+  const part = m.placement_parts.find((p) => p.by === by);
+  if (!part) return "–";
+  return number(part.detection_utility, 3) + (part.feasible ? "" : " (infeasible)");
+}
+
 function drawNumbers() {
   const rows = [
     ["group", "Layout"],
@@ -63,6 +76,7 @@ function drawNumbers() {
     ["Gap to the bound", (m) => percent(gap(m), 2)],
     ["Detection utility of a random layout", (m) => number(m.random_detection_utility, 3)],
     ["λ₂ of the random layout", (m) => number(m.random_algebraic_connectivity, 4)],
+    ...parts().map((by) => [`Detection utility of ${by} alone`, (m) => partOf(m, by)]),
     ["Proposals evaluated", (m) => m.evaluations.toLocaleString("en")],
     ["group", "Vehicles"],
     ["Detection utility where they start", (m) => number(m.detection_utility_at_start, 3)],

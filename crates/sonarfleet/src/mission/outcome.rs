@@ -5,8 +5,10 @@ use super::{Environment, Mission, excerpts};
 use crate::grid::{CellId, Position};
 use crate::navigation::{Route, TravelTimes};
 use crate::placement::random::RandomSearch;
-use crate::placement::{Budget, Placement, Solver};
-use crate::record::{EpochMetrics, EpochRecord, RouteRecord, RunRecord, TrackPoint};
+use crate::placement::{Budget, Contribution, Placement, Solver};
+use crate::record::{
+    EpochMetrics, EpochRecord, PlacementPart, RouteRecord, RunRecord, TrackPoint,
+};
 
 /// What an epoch decided and what came of it.
 pub(super) struct Outcome {
@@ -71,6 +73,7 @@ impl Mission<'_> {
                 .map(|loss| loss.metrics.clone()),
             evaluations: placement.evaluations,
             placement_history: placement.history.clone(),
+            placement_parts: placement.contributions.iter().map(part).collect(),
         };
         let loss_source = self.loss_source();
         EpochRecord {
@@ -142,6 +145,17 @@ impl Mission<'_> {
                 distance_m(a).total_cmp(&distance_m(b))
             })
             .expect("a theatre has a deployable cell")
+    }
+}
+
+fn part(contribution: &Contribution) -> PlacementPart {
+    let best = contribution.best;
+    PlacementPart {
+        by: contribution.by.clone(),
+        layouts: contribution.layouts,
+        detection_utility: best.detection_utility,
+        algebraic_connectivity: best.algebraic_connectivity,
+        feasible: best.feasible,
     }
 }
 

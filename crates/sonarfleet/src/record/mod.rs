@@ -211,6 +211,23 @@ pub struct EpochMetrics {
     pub evaluations: u64,
     /// Best feasible `J_d` against evaluations.
     pub placement_history: Vec<(u64, f64)>,
+    /// What each part of a placement method of several parts reached, in their order.
+    pub placement_parts: Vec<PlacementPart>,
+}
+
+/// What one part of a placement method reached.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlacementPart {
+    /// Name of the part.
+    pub by: String,
+    /// Layouts it gave or worked on.
+    pub layouts: u64,
+    /// `J_d` of the best of them.
+    pub detection_utility: f64,
+    /// λ₂ of it.
+    pub algebraic_connectivity: f64,
+    /// Whether that reaches the threshold.
+    pub feasible: bool,
 }
 
 /// How the transmission-loss table of an epoch was made, and how far it is from

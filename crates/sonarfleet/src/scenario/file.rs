@@ -483,7 +483,7 @@ pub struct PlacementSection {
 
 impl Default for PlacementSection {
     fn default() -> Self {
-        Self { method: "annealing".into(), evaluations: 1_000_000 }
+        Self { method: "auto".into(), evaluations: 4_000_000 }
     }
 }
 

@@ -79,7 +79,7 @@ impl Logbook {
     ) -> Result<()> {
         let seconds = self.last.elapsed().as_secs_f64();
         self.last = Instant::now();
-        self.log.write(update, step, scalars, &[("update", seconds)])?;
+        self.log.write(update, step, scalars, &[("elapsed", seconds)])?;
         if update.is_multiple_of(UPDATES_PER_CHECKPOINT) {
             self.keep(&state())?;
         }
