@@ -2,8 +2,10 @@
 
 use super::Solver;
 use super::annealing::Annealing;
+use super::genetic::Genetic;
 use super::greedy::{ConnectedGreedy, Greedy};
 use super::local_search::LocalSearch;
+use super::particle_swarm::ParticleSwarm;
 use super::random::RandomSearch;
 use std::str::FromStr;
 use thiserror::Error;
@@ -21,12 +23,29 @@ pub enum Method {
     LocalSearch,
     /// Simulated annealing with swaps.
     Annealing,
+    /// Particle swarm optimisation from feasible layouts.
+    ParticleSwarm,
+    /// A genetic algorithm from feasible layouts.
+    Genetic,
+    /// Particle swarm optimisation as the paper ran it, from random layouts.
+    ParticleSwarmPaper,
+    /// A genetic algorithm as the paper ran it, from random layouts.
+    GeneticPaper,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] =
-        [Self::Random, Self::Greedy, Self::ConnectedGreedy, Self::LocalSearch, Self::Annealing];
+    pub const ALL: [Self; 9] = [
+        Self::Random,
+        Self::Greedy,
+        Self::ConnectedGreedy,
+        Self::LocalSearch,
+        Self::Annealing,
+        Self::ParticleSwarm,
+        Self::Genetic,
+        Self::ParticleSwarmPaper,
+        Self::GeneticPaper,
+    ];
 
     /// The method's solver.
     pub fn solver(self) -> Box<dyn Solver> {
@@ -36,6 +55,10 @@ impl Method {
             Self::ConnectedGreedy => Box::new(ConnectedGreedy),
             Self::LocalSearch => Box::new(LocalSearch),
             Self::Annealing => Box::new(Annealing::default()),
+            Self::ParticleSwarm => Box::new(ParticleSwarm::default()),
+            Self::Genetic => Box::new(Genetic::default()),
+            Self::ParticleSwarmPaper => Box::new(ParticleSwarm::PAPER),
+            Self::GeneticPaper => Box::new(Genetic::PAPER),
         }
     }
 }
