@@ -39,6 +39,7 @@ fn dispatch(cli: &Cli) -> anyhow::Result<()> {
         Command::Place(args) => commands::place::place(args, manner),
         Command::Route(args) => commands::route::route(args, manner),
         Command::Assign(args) => commands::assign::assign(args, manner),
+        Command::Train(command) => commands::train::train(command, manner),
         Command::Bench(command) => commands::bench::bench(command, manner),
     }
 }

@@ -5,5 +5,7 @@
 //! [`Solver`](sonarfleet::placement::Solver) and
 //! [`Proposer`](sonarfleet::placement::Proposer).
 
+pub mod files;
 pub mod network;
 pub mod placement;
+pub mod ppo;

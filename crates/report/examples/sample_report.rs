@@ -1,4 +1,4 @@
-//! Draws the figures and the report of a made-up run:
+//! Draws the figures and the report of a made-up run, and the curve of a training:
 //! `cargo run -p sonarfleet-report --example sample_report -- DIR`.
 
 #[path = "../tests/sample/mod.rs"]
@@ -11,6 +11,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let directory = PathBuf::from(std::env::args_os().nth(1).ok_or("usage: sample_report DIR")?);
     let record = sample::record(sample::FULL);
     for file in sonarfleet_report::write_figures(&record, &directory)? {
+        println!("{}", file.display());
+    }
+    let training = sample::training(5, 118);
+    for file in sonarfleet_report::write_training(&training, directory.join("training"))? {
         println!("{}", file.display());
     }
     let report = directory.join("report.html");

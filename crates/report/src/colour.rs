@@ -25,6 +25,8 @@ pub(crate) const TRACK: Rgb = Rgb(0x14, 0x5d, 0xa0);
 pub(crate) const PLANNED: Rgb = Rgb(0x6f, 0xa8, 0xdc);
 /// Posts.
 pub(crate) const POST: Rgb = Rgb(0xd9, 0x5f, 0x0e);
+/// Single ones of what the colour of posts shows.
+pub(crate) const POST_TINT: Rgb = Rgb(0xf3, 0xb8, 0x8c);
 /// What failed.
 pub(crate) const FAILURE: Rgb = Rgb(0xb0, 0x1e, 0x3c);
 /// Arrows of current.

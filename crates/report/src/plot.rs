@@ -78,6 +78,24 @@ impl Axes {
         }
     }
 
+    /// Ticks, numbers and a label at the right, for lines on a scale of their own.
+    pub(crate) fn draw_right(&self, canvas: &mut Canvas, label: &str) {
+        let right = self.frame.right();
+        let [low, high] = self.y;
+        let count = ((self.frame.height / 18.0) as usize).clamp(2, 6);
+        let positions = ticks::ticks(low, high, count);
+        let mut widest = 0.0_f64;
+        for (&value, text) in positions.iter().zip(ticks::labels(&positions)) {
+            let [_, y] = self.at(self.x[0], value);
+            canvas.line(vec![[right, y], [right + TICK_LENGTH, y]], FRAME_STROKE);
+            canvas.text([right + TICK_LENGTH + 2.0, y + 2.4], &text, Align::Start, TICK);
+            widest = widest.max(text_width(&text, TICK));
+        }
+        let x = right + TICK_LENGTH + 2.0 + widest + 9.0;
+        let middle = self.frame.y + self.frame.height / 2.0;
+        canvas.upright_text([x, middle], label, Align::Middle, LABEL);
+    }
+
     /// Title above the frame, at its left.
     pub(crate) fn title(&self, canvas: &mut Canvas, text: &str) {
         canvas.text([self.frame.x, self.frame.y - 4.5], text, Align::Start, TITLE);

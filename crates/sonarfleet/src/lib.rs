@@ -10,6 +10,7 @@
 //! levels in dB re 1 µPa (sources at 1 m).
 
 pub mod assignment;
+pub mod curriculum;
 pub mod fingerprint;
 pub mod grid;
 pub mod mission;

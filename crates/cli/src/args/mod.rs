@@ -2,11 +2,14 @@
 
 mod bellhop;
 mod bench;
+mod train;
 
 pub(crate) use bellhop::{BellhopArgs, ModelName};
 pub(crate) use bench::{BenchAcousticsArgs, BenchCommand};
+pub(crate) use train::{PlacementPolicy, Preset, TrainCommand, TrainPlacementArgs};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sonarfleet::placement::Method;
 use sonarfleet_acoustics::environment::Seabed;
 use std::path::PathBuf;
 
@@ -57,6 +60,9 @@ pub(crate) enum Command {
     Route(RouteArgs),
     /// Assign vehicles to posts, given a matrix of costs
     Assign(AssignArgs),
+    /// Train the policies that place the fleet
+    #[command(subcommand)]
+    Train(TrainCommand),
     /// Measure how fast and how good we are, beside our peers
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -258,8 +264,11 @@ fn parse_shard(text: &str) -> Result<Shard, String> {
 pub(crate) struct PlaceArgs {
     /// Scenario (.toml) or placement instance (.npz)
     pub(crate) input: PathBuf,
-    /// Solver [default: the scenario's]
-    #[arg(long, value_name = "M")]
+    #[arg(
+        long,
+        value_name = "M",
+        help = format!("Method: {} [default: the scenario's; auto for an instance]", methods())
+    )]
     pub(crate) method: Option<String>,
     /// Time limit instead of a budget in evaluations; not reproducible
     #[arg(long, value_name = "S", value_parser = positive)]
@@ -273,6 +282,12 @@ pub(crate) struct PlaceArgs {
     /// Number of vehicles [default: the scenario's]
     #[arg(long, value_name = "G")]
     pub(crate) count: Option<usize>,
+    /// Required algebraic connectivity τ [default: the scenario's or instance's]
+    #[arg(long, value_name = "TAU", value_parser = not_negative)]
+    pub(crate) threshold: Option<f64>,
+    /// Weights of `policy`, as `train placement` writes them [default: those that ship]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) weights: Option<PathBuf>,
     /// Epoch of the scenario, from 0
     #[arg(long, default_value_t = 0, value_name = "K")]
     pub(crate) epoch: usize,
@@ -286,10 +301,21 @@ pub(crate) struct PlaceArgs {
     pub(crate) cache: CacheArgs,
 }
 
+fn methods() -> String {
+    Method::ALL.map(Method::name).join(", ")
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if value > 0.0 && f64::is_finite(value) => Ok(value),
         _ => Err("expected a positive number".into()),
+    }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if value >= 0.0 && f64::is_finite(value) => Ok(value),
+        _ => Err("expected a number from 0 up".into()),
     }
 }
 

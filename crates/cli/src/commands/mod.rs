@@ -10,6 +10,10 @@ pub(crate) mod place;
 pub(crate) mod route;
 pub(crate) mod run;
 pub(crate) mod tl;
+pub(crate) mod train;
+
+mod methods;
+mod problem;
 
 use crate::args::CacheArgs;
 use anyhow::{Result, ensure};
@@ -67,13 +71,17 @@ fn loss_cache(args: &CacheArgs) -> Option<LossCache> {
     if args.no_cache {
         return None;
     }
+    Some(LossCache::new(cache_directory()?.join("transmission-loss")))
+}
+
+/// Where results that took long are kept.
+fn cache_directory() -> Option<PathBuf> {
     let named = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     let own = named("SONARFLEET_CACHE").map(PathBuf::from);
     // The XDG specification has relative paths ignored.
     let xdg = || named("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
     let home = || std::env::home_dir().map(|home| home.join(".cache"));
-    let place = own.or_else(|| Some(xdg().or_else(home)?.join("sonarfleet")))?;
-    Some(LossCache::new(place.join("transmission-loss")))
+    own.or_else(|| Some(xdg().or_else(home)?.join("sonarfleet")))
 }
 
 /// Prints a line of results. Unlike `println!` it does not panic where nobody reads.

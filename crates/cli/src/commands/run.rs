@@ -65,7 +65,8 @@ fn run_in(
     let provenance =
         Provenance::new(scenario.resolved(), scenario.file.seed, scenario.input_files())?;
     let theatre = Theatre::of(scenario)?;
-    let (solver, planner) = (scenario.method.solver(), scenario.planner());
+    let solver = super::methods::solver(scenario.method, None)?;
+    let planner = scenario.planner();
     let mission = Mission {
         scenario,
         theatre: &theatre,

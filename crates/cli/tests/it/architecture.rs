@@ -11,16 +11,26 @@ const CRATES: [(&str, &[&str]); 6] = [
     ("sonarfleet", &["sonarfleet-acoustics", "sonarfleet-ocean"]),
     ("learning", &["sonarfleet"]),
     ("report", &["sonarfleet"]),
-    ("cli", &["sonarfleet", "sonarfleet-acoustics", "sonarfleet-ocean", "sonarfleet-report"]),
+    (
+        "cli",
+        &[
+            "sonarfleet",
+            "sonarfleet-acoustics",
+            "sonarfleet-learning",
+            "sonarfleet-ocean",
+            "sonarfleet-report",
+        ],
+    ),
 ];
 
 /// Which room of `sonarfleet` may use which.
-const ROOMS: [(&str, &[&str]); 9] = [
+const ROOMS: [(&str, &[&str]); 10] = [
     ("fingerprint", &[]),
     ("grid", &[]),
     ("npz", &[]),
     ("sonar", &["fingerprint", "grid", "npz", "random"]),
     ("placement", &["grid", "npz", "random", "sonar"]),
+    ("curriculum", &["fingerprint", "grid", "npz", "placement", "random", "sonar"]),
     ("navigation", &["grid", "npz", "random", "record"]),
     ("assignment", &["npz", "random"]),
     ("record", &["fingerprint", "grid"]),

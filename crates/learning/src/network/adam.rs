@@ -1,5 +1,7 @@
 //! Gradient descent.
 
+use super::vector::wide;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Adam (Kingma & Ba 2015, arXiv:1412.6980) on a flat slice of weights.
@@ -41,21 +43,35 @@ impl Adam {
         let correction = |beta: f32| 1.0 - f64::from(beta).powf(self.steps as f64);
         let mean_correction = correction(self.beta1) as f32;
         let square_correction = correction(self.beta2) as f32;
-        let moments = self.mean.iter_mut().zip(self.square.iter_mut());
-        for ((weight, &slope), (mean, square)) in weights.iter_mut().zip(gradient).zip(moments) {
-            *mean = self.beta1 * *mean + (1.0 - self.beta1) * slope;
-            *square = self.beta2 * *square + (1.0 - self.beta2) * slope * slope;
-            let spread = (*square / square_correction).sqrt() + self.epsilon;
-            *weight -= learning_rate * (*mean / mean_correction) / spread;
-        }
+        let (beta1, beta2, epsilon) = (self.beta1, self.beta2, self.epsilon);
+        weights
+            .par_chunks_mut(CHUNK)
+            .zip(gradient.par_chunks(CHUNK))
+            .zip(self.mean.par_chunks_mut(CHUNK).zip(self.square.par_chunks_mut(CHUNK)))
+            .for_each(|((weights, gradient), (mean, square))| {
+                let moments = mean.iter_mut().zip(square.iter_mut());
+                wide(|| {
+                    for ((weight, &slope), (mean, square)) in
+                        weights.iter_mut().zip(gradient).zip(moments)
+                    {
+                        *mean = beta1 * *mean + (1.0 - beta1) * slope;
+                        *square = beta2 * *square + (1.0 - beta2) * slope * slope;
+                        let spread = (*square / square_correction).sqrt() + epsilon;
+                        *weight -= learning_rate * (*mean / mean_correction) / spread;
+                    }
+                });
+            });
     }
 }
+
+/// Weights that one task takes, whatever the number of threads.
+const CHUNK: usize = 16_384;
 
 /// Scales a gradient so that its Euclidean norm is at most `largest`; gives the norm
 /// it had.
 pub fn clip_gradient(gradient: &mut [f32], largest: f32) -> f32 {
-    let squares: f64 = gradient.iter().map(|&slope| f64::from(slope) * f64::from(slope)).sum();
-    let norm = squares.sqrt() as f32;
+    let squares: Vec<f64> = gradient.par_chunks(CHUNK).map(|part| wide(|| squares(part))).collect();
+    let norm = squares.iter().sum::<f64>().sqrt() as f32;
     if norm > largest {
         let scale = largest / norm;
         for slope in gradient {
@@ -63,6 +79,20 @@ pub fn clip_gradient(gradient: &mut [f32], largest: f32) -> f32 {
         }
     }
     norm
+}
+
+/// Sum of squares, in parallel lanes.
+#[expect(clippy::inline_always, reason = "to be compiled for wide vectors")]
+#[inline(always)]
+fn squares(values: &[f32]) -> f64 {
+    const LANES: usize = 16;
+    let mut sums = [0.0; LANES];
+    for chunk in values.chunks(LANES) {
+        for (sum, &value) in sums.iter_mut().zip(chunk) {
+            *sum += f64::from(value) * f64::from(value);
+        }
+    }
+    sums.iter().sum()
 }
 
 #[cfg(test)]

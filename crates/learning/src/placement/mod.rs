@@ -1,1 +1,4 @@
 //! Policies that place the fleet.
+
+pub mod paper;
+pub mod transferable;

@@ -1,1 +1,3 @@
 //! The tests of the crate as a whole.
+
+mod onnx;

@@ -6,8 +6,11 @@
 //! - [`circulation`]: eddy, front and slope current in thermal-wind balance with the
 //!   temperature, tides, inertial motion, and the heaving of the thermocline.
 //! - [`seafloor`]: the continental slope with its canyon, spur and hills.
+//!
+//! Beside it stands [`ensemble`], a family of small oceans to practise on.
 
 pub mod circulation;
+pub mod ensemble;
 pub mod profile;
 pub mod seafloor;
 
@@ -101,8 +104,13 @@ impl SyntheticOcean {
 /// Metres east and north of the middle of [`REGION`] on a tangent plane: the
 /// coordinates in which the ocean is defined.
 fn plane_m(longitude_deg: f64, latitude_deg: f64) -> (f64, f64) {
+    plane_about_m(REGION, longitude_deg, latitude_deg)
+}
+
+/// Metres east and north of the middle of a region on a tangent plane.
+fn plane_about_m(region: Region, longitude_deg: f64, latitude_deg: f64) -> (f64, f64) {
     const METRES_PER_DEGREE: f64 = 111_195.0;
-    let (longitude, latitude) = REGION.centre_deg();
+    let (longitude, latitude) = region.centre_deg();
     let parallel = METRES_PER_DEGREE * latitude.to_radians().cos();
     ((longitude_deg - longitude) * parallel, (latitude_deg - latitude) * METRES_PER_DEGREE)
 }

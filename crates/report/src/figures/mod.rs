@@ -5,13 +5,14 @@ mod placement;
 mod priors;
 mod routes;
 mod sound_speed;
+mod training;
 
 use crate::canvas::{self, Align, Canvas};
 use crate::error::written;
 use crate::error::{ReportError, Result};
 use crate::plot::REMARK;
 use crate::{ticks, valid};
-use sonarfleet::record::{EpochRecord, RunRecord};
+use sonarfleet::record::{EpochRecord, RunRecord, TrainingRecord};
 use std::path::{Path, PathBuf};
 
 /// Width of a figure over two columns of a journal, in points (184 mm).
@@ -57,14 +58,38 @@ pub fn write_figures(record: &RunRecord, directory: impl AsRef<Path>) -> Result<
     Ok(files)
 }
 
+/// Draws the curve of a training as `STEM.svg` and `STEM.png`, whose folder is made if
+/// it is missing, and returns both: reward and `J_d`, λ₂ and its multiplier, entropy
+/// and divergence, against episodes; one thin line per seed, and the median bold.
+///
+/// # Errors
+///
+/// Files that cannot be written.
+pub fn write_training(record: &TrainingRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    let stem = stem.as_ref();
+    if let Some(folder) = stem.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|source| ReportError::Write { path: folder.to_owned(), source })?;
+    }
+    let mut files = Vec::new();
+    write(&training::draw(record), stem, &mut files)?;
+    Ok(files)
+}
+
 fn write(canvas: &Canvas, name: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
     let failed = |path: &Path| {
         let path = path.to_owned();
         move |reason| ReportError::Draw { path, reason }
     };
-    let svg = name.with_extension("svg");
+    // Names may hold points of their own, as in `tau-0.95`.
+    let with = |extension: &str| {
+        let mut path = name.as_os_str().to_owned();
+        path.push(extension);
+        PathBuf::from(path)
+    };
+    let svg = with(".svg");
     written(&svg, canvas::to_svg(canvas).map_err(failed(&svg))?.as_bytes())?;
-    let png = name.with_extension("png");
+    let png = with(".png");
     written(&png, &canvas::to_png(canvas).map_err(failed(&png))?)?;
     files.extend([svg, png]);
     Ok(())

@@ -4,6 +4,7 @@ mod figures;
 mod report;
 #[path = "../sample/mod.rs"]
 mod sample;
+mod training;
 mod xml;
 
 use sample::Size;

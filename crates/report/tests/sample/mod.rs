@@ -2,6 +2,10 @@
 //! a corridor prior that turns, an eddy and a front, a sloping sea bed, vehicles
 //! that enter in the west and cannot all arrive at once.
 
+mod training;
+
+pub(crate) use training::training;
+
 use sonarfleet::grid::{CellId, Position, SurveillanceGrid};
 use sonarfleet::record::{
     CurrentRecord, EpochMetrics, EpochRecord, LossTableMetrics, RouteRecord, RunRecord,

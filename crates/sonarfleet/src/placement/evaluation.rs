@@ -1,14 +1,14 @@
 //! What a layout achieves.
 
 use crate::sonar::objective::penalised_reward;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// Multiplier λₖ of the reward R by which methods that may end infeasible are compared.
 pub const SCORING_MULTIPLIER: f64 = 30.0;
 
 /// Detection utility and connectivity of a layout, from a full evaluation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {
     /// `J_d`, Equation (6): expected number of targets detected.
     pub detection_utility: f64,

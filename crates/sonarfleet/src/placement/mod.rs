@@ -1,11 +1,13 @@
 //! Where the fleet should be: the placement problem, its incremental evaluation,
 //! and the methods that solve it.
 
+mod chain;
 mod error;
 mod evaluation;
 mod method;
 
 pub mod annealing;
+pub mod auto;
 pub mod bound;
 pub mod compact;
 pub mod comparison;
@@ -14,6 +16,7 @@ pub mod genetic;
 pub mod greedy;
 pub mod instance;
 pub mod local_search;
+pub mod mdp;
 pub mod network;
 pub mod particle_swarm;
 pub mod population;
@@ -25,4 +28,4 @@ pub use error::PlacementError;
 pub use evaluation::{Evaluation, SCORING_MULTIPLIER};
 pub use method::{Method, UnknownMethod};
 pub use problem::{PlacementInput, PlacementProblem};
-pub use solver::{Budget, Placement, Proposer, Solver};
+pub use solver::{Budget, Contribution, Placement, Proposer, Solver};

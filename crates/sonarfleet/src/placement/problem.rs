@@ -183,6 +183,12 @@ impl PlacementProblem {
         &self.detection[cell.0 * cells..(cell.0 + 1) * cells]
     }
 
+    /// Weights of the links between `cell` and every cell, itself with 0.
+    pub fn links(&self, cell: CellId) -> &[f64] {
+        let cells = self.grid.cell_count();
+        &self.links[cell.0 * cells..(cell.0 + 1) * cells]
+    }
+
     /// Weight of the link between two cells, min(`p_pq`, `p_qp`).
     pub fn link(&self, p: CellId, q: CellId) -> f64 {
         self.links[p.0 * self.grid.cell_count() + q.0]

@@ -2,6 +2,7 @@
 
 use super::{Evaluation, PlacementProblem, bound};
 use crate::grid::CellId;
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// How long a method may search.
@@ -12,6 +13,21 @@ pub enum Budget {
     Evaluations(u64),
     /// So many seconds of wall-clock time: **not** reproducible.
     Seconds(f64),
+}
+
+impl Budget {
+    /// An equal share for each of several searches that run side by side on the threads
+    /// there are.
+    pub(super) fn shared(self, searches: usize) -> Self {
+        let searches = searches.max(1);
+        match self {
+            Self::Evaluations(limit) => Self::Evaluations(limit / searches as u64),
+            Self::Seconds(limit) => {
+                let at_once = rayon::current_num_threads().min(searches);
+                Self::Seconds(limit * at_once as f64 / searches as f64)
+            }
+        }
+    }
 }
 
 /// A method that places the fleet.
@@ -52,10 +68,25 @@ pub struct Placement {
     /// Best feasible `J_d` against proposals evaluated; empty while nothing
     /// feasible was found.
     pub history: Vec<(u64, f64)>,
+    /// What each part of a method of several parts reached, in the order of their work.
+    pub contributions: Vec<Contribution>,
+}
+
+/// What one part of a method reached.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Contribution {
+    /// Name of the part.
+    pub by: String,
+    /// Layouts it gave or worked on.
+    pub layouts: u64,
+    /// Full evaluation of the best of them.
+    pub best: Evaluation,
 }
 
 impl Placement {
-    pub(super) fn new(
+    /// What a method found: the full evaluation of its layout beside the bound.
+    /// `history` is cut to what lies below that evaluation, with which it ends.
+    pub fn new(
         method: &'static str,
         problem: &PlacementProblem,
         mut cells: Vec<CellId>,
@@ -70,24 +101,36 @@ impl Placement {
             history.push((evaluations, evaluation.detection_utility));
         }
         let upper_bound = bound::upper_bound(problem);
-        Self { method, cells, evaluation, upper_bound, evaluations, history }
+        let contributions = Vec::new();
+        Self { method, cells, evaluation, upper_bound, evaluations, history, contributions }
     }
 }
 
 /// How much of a budget is used up.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meter {
+pub struct Meter {
     budget: Budget,
     start: Instant,
 }
 
 impl Meter {
-    pub(super) fn new(budget: Budget) -> Self {
+    /// Starts the clock.
+    pub fn new(budget: Budget) -> Self {
         Self { budget, start: Instant::now() }
     }
 
+    /// What is left of the budget after so many evaluations.
+    pub(super) fn left(&self, evaluations: u64) -> Budget {
+        match self.budget {
+            Budget::Evaluations(limit) => Budget::Evaluations(limit.saturating_sub(evaluations)),
+            Budget::Seconds(limit) => {
+                Budget::Seconds((limit - self.start.elapsed().as_secs_f64()).max(0.0))
+            }
+        }
+    }
+
     /// The used share of the budget after so many evaluations: 1 or more at its end.
-    pub(super) fn used(&self, evaluations: u64) -> f64 {
+    pub fn used(&self, evaluations: u64) -> f64 {
         match self.budget {
             Budget::Evaluations(limit) => evaluations as f64 / limit.max(1) as f64,
             Budget::Seconds(limit) => self.start.elapsed().as_secs_f64() / limit.max(1e-9),

@@ -6,6 +6,7 @@ mod directory;
 mod epoch_file;
 mod error;
 mod provenance;
+mod training;
 mod write;
 
 pub use checkpoint::Checkpoint;
@@ -13,6 +14,7 @@ pub use directory::RunDirectory;
 pub use epoch_file::write_epoch;
 pub use error::RecordError;
 pub use provenance::{InputFile, Provenance};
+pub use training::{TrainingPoint, TrainingRecord, TrainingRun};
 pub use write::write_run;
 
 use crate::grid::{CellId, Position, SurveillanceGrid};

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Version of the way from waters and settings to rows. It is raised with every
 /// change that moves a loss; a test holds rows of this version.
-pub(super) const TABLE_VERSION: u32 = 3;
+pub(crate) const TABLE_VERSION: u32 = 3;
 
 /// Rows are written when so many are waiting, or when the last were written so
 /// long ago: a killed program loses no more than that.

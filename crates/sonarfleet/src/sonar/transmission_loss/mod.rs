@@ -13,6 +13,7 @@ mod settings;
 mod table;
 
 pub use accuracy::{ErrorEstimate, estimate_error};
+pub(crate) use cache::TABLE_VERSION;
 pub use cache::{LossCache, table_fingerprint};
 pub use directions::Directions;
 pub use error::TransmissionLossError;

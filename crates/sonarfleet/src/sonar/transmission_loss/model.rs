@@ -23,6 +23,9 @@ pub(super) fn profile_by(
     }
     let length_m = count as f64 * step_m;
     let section = waters.section(from, bearing_rad, length_m, numerics.sounding_m)?;
+    if section.bathymetry().depth_at_m(0.0) < settings.fleet_depth_m {
+        return Ok(RangeProfile { step_m, intensity: Vec::new() });
+    }
     let trace = TraceSettings {
         near_m: -BEHIND_M,
         amplitude_cutoff: numerics.amplitude_cutoff,

@@ -173,7 +173,15 @@ impl<'a> RowComputer<'a> {
                 };
                 Ok((section, settings))
             })
-            .collect::<Result<Vec<_>, AcousticsError>>()?;
+            .collect::<Result<Vec<(Section, TraceSettings)>, AcousticsError>>()?;
+        // Between soundings a slice's floor is straight: it can cut off a source close above
+        // the ground, which is then heard nowhere along it.
+        let in_ground = |(section, _): &(Section, TraceSettings)| {
+            section.bathymetry().depth_at_m(0.0) < self.settings.fleet_depth_m
+        };
+        if sections.iter().any(in_ground) {
+            return Ok(Cut { sections: Vec::new(), count: 0 });
+        }
         Ok(Cut { sections, count })
     }
 

@@ -219,6 +219,26 @@ mod tests {
         assert!(table.loss_db(CellId(0), CellId(4)) < 90.0);
     }
 
+    /// A pit around a cell's middle: straight lines between soundings cut it off.
+    #[test]
+    fn a_source_close_above_the_ground_is_no_error() {
+        let source = CellId(5);
+        let in_pit = |bathymetry: &mut Bathymetry| {
+            let columns = bathymetry.longitude_deg.len();
+            let (west_deg, south_deg) = (region().west_deg, region().south_deg);
+            for (node, depth) in bathymetry.values_m.iter_mut().enumerate() {
+                // The cell's middle is 1.5 of 4 cells from the corner.
+                let east = bathymetry.longitude_deg[node % columns] - (west_deg + 0.015);
+                let north = bathymetry.latitude_deg[node / columns] - (south_deg + 0.013_875);
+                *depth = (300.0 - 4_000.0 * east.hypot(north)).max(120.0) as f32;
+            }
+        };
+        let (waters, grid, mut settings) = setting(in_pit);
+        settings.fleet_depth_m = waters.floor_m(grid.centre(source)) - 0.01;
+        let rows = compute_rows(&waters, &grid, &settings, &[source], &|_, _| {}).unwrap();
+        assert!(rows[0].iter().all(|loss| (40.0..=200.0).contains(loss)), "{rows:?}");
+    }
+
     #[test]
     fn sound_beyond_the_largest_range_is_not_followed() {
         let (waters, grid, settings) = setting(|_| {});

@@ -1,0 +1,404 @@
+//! A layout while it is built, and what the policy observes of it.
+
+use super::landscape::Landscape;
+use super::observation::{CANDIDATES, FEATURES, Observation};
+use super::spectrum::Spectrum;
+use sonarfleet::grid::CellId;
+
+/// Candidates taken by their gain; the others by what they do for the network.
+const BY_GAIN: usize = 96;
+
+/// What a candidate by gain needs in links to those placed, added up.
+const LINKED: f32 = 0.25;
+
+/// Weight of λ₃ beside λ₂ among candidates by connectivity.
+const THIRD_WEIGHT: f32 = 0.3;
+
+/// What is newly found at a target, relative to the largest prior, for the gains around
+/// to be brought up to date.
+const UNNOTICED: f32 = 1e-4;
+
+/// Features are kept within this.
+const LIMIT: f32 = 4.0;
+
+/// A layout while it is built: fixed sensors first, then vehicle after vehicle.
+///
+/// - **State**: what the placed stations miss of the prior, marginal gains, links to
+///   those placed, and the lowest eigenpairs of their network.
+/// - **Action**: a free deployable cell, out of up to [`CANDIDATES`] candidates.
+/// - **Mask**: cells that are taken, blocked, or no candidates.
+/// - **End**: when all vehicles are placed.
+#[derive(Debug, Clone)]
+pub(super) struct Construction<'l> {
+    landscape: &'l Landscape<'l>,
+    /// τ′: the connectivity that the policy is to build for.
+    threshold: f64,
+    residual: Vec<f32>,
+    gains: Vec<f32>,
+    /// Links to those placed, [cell].
+    degrees: Vec<f32>,
+    free: Vec<bool>,
+    placed: Vec<u32>,
+    station_degrees: Vec<f64>,
+    /// [station, station]
+    weights: Vec<f64>,
+    spectrum: Spectrum,
+    utility: f32,
+    sums: LinkSums,
+}
+
+/// Over the links w of every cell to those placed, with the eigenvectors v and u.
+#[derive(Debug, Clone, Default)]
+struct LinkSums {
+    /// Σ w·v, Σ w·v², Σ w·u, Σ w·u², Σ w/(1 + degree), [cell].
+    values: Vec<[f32; 5]>,
+    /// Estimates of λ₂ and λ₃ with one more vehicle in the cell.
+    raised: Vec<[f32; 2]>,
+    /// |v̂| and |û|: where the vehicle would sit on the eigenvectors.
+    positions: Vec<[f32; 2]>,
+}
+
+impl<'l> Construction<'l> {
+    /// An empty layout, to be built for a connectivity τ′.
+    pub(super) fn new(landscape: &'l Landscape<'l>, threshold: f64) -> Self {
+        let cells = landscape.columns * landscape.rows;
+        let mut free = vec![false; cells];
+        for &cell in &landscape.deployable {
+            free[cell as usize] = true;
+        }
+        let sums = LinkSums {
+            values: vec![[0.0; 5]; cells],
+            raised: vec![[0.0; 2]; cells],
+            positions: vec![[0.0; 2]; cells],
+        };
+        let mut construction = Self {
+            landscape,
+            threshold,
+            residual: landscape.residual.clone(),
+            gains: landscape.first_gains.clone(),
+            degrees: vec![0.0; cells],
+            free,
+            placed: Vec::with_capacity(landscape.stations()),
+            station_degrees: Vec::with_capacity(landscape.stations()),
+            weights: Vec::new(),
+            spectrum: Spectrum::default(),
+            utility: 0.0,
+            sums,
+        };
+        for &CellId(cell) in landscape.problem.fixed_sensors() {
+            construction.connect(cell as u32);
+        }
+        construction
+    }
+
+    /// The vehicles' cells, in the order of their placement.
+    pub(super) fn layout(&self) -> Vec<CellId> {
+        let fixed = self.landscape.problem.fixed_sensors().len();
+        self.placed[fixed..].iter().map(|&cell| CellId(cell as usize)).collect()
+    }
+
+    /// Whether all vehicles are placed.
+    pub(super) fn is_complete(&self) -> bool {
+        self.placed.len() == self.landscape.stations()
+    }
+
+    /// Whether a vehicle may be placed in a cell.
+    pub(super) fn is_free(&self, cell: u32) -> bool {
+        self.free[cell as usize]
+    }
+
+    /// Places a vehicle.
+    pub(super) fn place(&mut self, cell: u32) {
+        debug_assert!(self.free[cell as usize], "one vehicle per cell");
+        self.free[cell as usize] = false;
+        for &(target, p_d) in self.landscape.hears.row(cell as usize) {
+            let found = self.residual[target as usize] * p_d;
+            self.residual[target as usize] -= found;
+            self.utility += found;
+            if found < UNNOTICED * self.landscape.largest_prior {
+                continue;
+            }
+            for &(sonar, p_d) in self.landscape.heard.row(target as usize) {
+                self.gains[sonar as usize] -= found * p_d;
+            }
+        }
+        self.connect(cell);
+    }
+
+    /// Makes a station part of the network.
+    fn connect(&mut self, cell: u32) {
+        let n = self.placed.len();
+        let mut weights = vec![0.0; (n + 1) * (n + 1)];
+        for (i, row) in self.weights.chunks_exact(n.max(1)).enumerate() {
+            weights[i * (n + 1)..i * (n + 1) + n].copy_from_slice(row);
+        }
+        let mut degree = 0.0;
+        for (i, &station) in self.placed.iter().enumerate() {
+            let link = self.landscape.problem.link(CellId(cell as usize), CellId(station as usize));
+            weights[i * (n + 1) + n] = link;
+            weights[n * (n + 1) + i] = link;
+            self.station_degrees[i] += link;
+            degree += link;
+        }
+        self.weights = weights;
+        self.placed.push(cell);
+        self.station_degrees.push(degree);
+        for &(to, link) in self.landscape.links.row(cell as usize) {
+            self.degrees[to as usize] += link;
+        }
+        self.spectrum.follow(&self.weights, &self.station_degrees);
+    }
+
+    /// What the policy sees. A cell that is no candidate cannot be chosen.
+    pub(super) fn observe(&mut self, observation: &mut Observation) {
+        self.sum_links();
+        self.estimate();
+        let best_gain = self.best_gain();
+        self.choose(&mut observation.cells);
+        self.describe(best_gain, observation);
+    }
+
+    fn best_gain(&self) -> f32 {
+        let free = self.landscape.deployable.iter().filter(|&&cell| self.free[cell as usize]);
+        free.map(|&cell| self.gains[cell as usize]).fold(0.0, f32::max)
+    }
+
+    fn sum_links(&mut self) {
+        self.sums.values.fill([0.0; 5]);
+        let [second, third] = &self.spectrum.vectors;
+        for (i, &station) in self.placed.iter().enumerate() {
+            let (v, u) = (second[i] as f32, third[i] as f32);
+            let help = 1.0 / (1.0 + self.station_degrees[i] as f32);
+            let terms = [v, v * v, u, u * u, help];
+            for &(cell, link) in self.landscape.links.row(station as usize) {
+                for (sum, term) in self.sums.values[cell as usize].iter_mut().zip(terms) {
+                    *sum += link * term;
+                }
+            }
+        }
+    }
+
+    /// Second-order estimates of λ₂ and λ₃ with one more vehicle: the Rayleigh quotient
+    /// of the old vector with its best value v̂ = Σwv/Σw at the new one.
+    fn estimate(&mut self) {
+        let k = self.placed.len();
+        let root = (k as f32).sqrt();
+        let shrink = 1.0 - 1.0 / (k as f32 + 1.0);
+        let values = self.spectrum.values.map(|value| value as f32);
+        for &cell in &self.landscape.deployable {
+            let cell = cell as usize;
+            let degree = self.degrees[cell];
+            let (raised, positions) = (&mut self.sums.raised[cell], &mut self.sums.positions[cell]);
+            if k < 2 || degree <= 0.0 {
+                *raised = [2.0 * degree; 2];
+                *positions = [0.0; 2];
+                if k >= 2 {
+                    *raised = [0.0; 2];
+                }
+                continue;
+            }
+            for which in 0..2 {
+                let first = self.sums.values[cell][2 * which];
+                let second = self.sums.values[cell][2 * which + 1];
+                let place = first / degree;
+                let numerator = values[which] + second - first * place;
+                raised[which] = numerator / (1.0 + place * place * shrink);
+                positions[which] = place.abs() * root;
+            }
+        }
+    }
+
+    /// What a vehicle in a cell would do for the network.
+    fn network_gain(&self, cell: usize) -> f32 {
+        let [second, third] = self.sums.raised[cell];
+        let values = self.spectrum.values;
+        let trust = self.degrees[cell].min(1.0);
+        trust * ((second - values[0] as f32) + THIRD_WEIGHT * (third - values[1] as f32))
+    }
+
+    /// Up to [`CANDIDATES`] free cells: the best by gain among those with links, then
+    /// the best by connectivity among the others.
+    fn choose(&self, candidates: &mut Vec<u32>) {
+        let anywhere = self.placed.is_empty();
+        let is_free = |&cell: &u32| self.free[cell as usize];
+        candidates.clear();
+        let mut free: Vec<u32> =
+            self.landscape.deployable.iter().copied().filter(is_free).collect();
+        let linked = |cell: u32| anywhere || self.degrees[cell as usize] > LINKED;
+        let mut near: Vec<u32> = free.iter().copied().filter(|&cell| linked(cell)).collect();
+        if near.is_empty() {
+            near.clone_from(&free);
+        }
+        let by_gain = if anywhere { CANDIDATES } else { BY_GAIN };
+        keep_largest(&mut near, by_gain, |cell| self.gains[cell as usize]);
+        candidates.append(&mut near);
+        candidates.sort_unstable();
+        if !anywhere {
+            free.retain(|cell| candidates.binary_search(cell).is_err());
+            let left = CANDIDATES - candidates.len();
+            keep_largest(&mut free, left.min(CANDIDATES - BY_GAIN), |cell| {
+                self.network_gain(cell as usize)
+            });
+            candidates.append(&mut free);
+            candidates.sort_unstable();
+        }
+    }
+
+    /// Fills in the features: none depends on the grid's size or orientation.
+    fn describe(&self, best_gain: f32, observation: &mut Observation) {
+        let landscape = self.landscape;
+        let k = self.placed.len() as f32;
+        let n = landscape.stations() as f32;
+        let threshold = self.threshold as f32;
+        let per_gain = reciprocal(best_gain);
+        let per_first = reciprocal(landscape.best_first_gain);
+        let [second, third] = self.spectrum.values.map(|value| value as f32);
+        let smallest = self.station_degrees.iter().copied().fold(f64::INFINITY, f64::min) as f32;
+        let whole = n * reciprocal(k * threshold);
+        let expected: f32 = landscape.residual.iter().sum();
+        let shared = [
+            k / n,
+            bounded(second / threshold),
+            bounded(second * whole),
+            bounded(third * whole),
+            self.utility * reciprocal(expected),
+            best_gain * per_first,
+            if k > 0.0 { bounded(smallest / threshold) } else { 0.0 },
+            bounded((n / 40.0).ln()),
+            bounded(n * landscape.best_first_gain * reciprocal(expected) / 4.0),
+            bounded(landscape.best_reach.ln_1p() / 2.0),
+        ];
+        let centre = self.centre();
+        for (lane, &cell) in observation.cells.iter().enumerate() {
+            let at = cell as usize;
+            let (gain, first_gain) = (self.gains[at], landscape.first_gains[at]);
+            let degree = self.degrees[at];
+            let per_step = n / ((k + 1.0) * threshold);
+            let [raised, raised_third] = self.sums.raised[at];
+            let [position, position_third] = self.sums.positions[at];
+            let (near_mean, near_sum) = self.gains_nearby(at);
+            let [around, around_wide] = self.placed_around(cell);
+            let (distance, relative) = centre.distance(cell, landscape.columns, n);
+            let own = [
+                gain * per_gain,
+                gain * per_first,
+                first_gain * per_first,
+                gain * reciprocal(first_gain),
+                degree.ln_1p(),
+                (-degree).exp(),
+                bounded(raised / threshold),
+                bounded(raised * per_step),
+                (-raised * per_step).exp(),
+                bounded(k * (raised - second) / threshold),
+                bounded(raised_third / threshold),
+                bounded(raised_third * per_step),
+                (-raised_third * per_step).exp(),
+                bounded(k * (raised_third - third) / threshold),
+                bounded(position),
+                bounded(position_third),
+                self.sums.values[at][4],
+                bounded(distance),
+                bounded(relative),
+                near_mean * per_gain,
+                (near_sum * per_gain).ln_1p() / 3.0,
+                landscape.potential[at],
+                landscape.reach[at],
+                around,
+                around_wide,
+                self.residual[at] / landscape.largest_prior,
+            ];
+            for (row, value) in observation.features.iter_mut().zip(own.iter().chain(&shared)) {
+                row[lane] = *value;
+            }
+        }
+        let count = observation.cells.len();
+        for row in observation.features.iter_mut() {
+            row[count..].fill(0.0);
+        }
+        const { assert!(FEATURES == 36) };
+    }
+
+    /// Mean and sum of the gains of free cells, weighed by their links to a cell.
+    fn gains_nearby(&self, cell: usize) -> (f32, f32) {
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for &(to, link) in self.landscape.links.row(cell) {
+            if self.free[to as usize] {
+                sum += link * self.gains[to as usize];
+                weight += link;
+            }
+        }
+        (sum * reciprocal(weight), sum)
+    }
+
+    /// Shares of the 3 × 3 and 5 × 5 cells around one that are taken by stations.
+    fn placed_around(&self, cell: u32) -> [f32; 2] {
+        let columns = self.landscape.columns as i32;
+        let (column, row) = (cell as i32 % columns, cell as i32 / columns);
+        let (mut near, mut wide) = (0.0, 0.0);
+        for &station in &self.placed {
+            let dx = (station as i32 % columns - column).abs();
+            let dy = (station as i32 / columns - row).abs();
+            let distance = dx.max(dy);
+            near += if distance <= 1 { 1.0 } else { 0.0 };
+            wide += if distance <= 2 { 1.0 } else { 0.0 };
+        }
+        [near / 8.0, wide / 24.0]
+    }
+
+    /// Middle and spread of those placed, in cells.
+    fn centre(&self) -> Centre {
+        let columns = self.landscape.columns;
+        let k = self.placed.len().max(1) as f32;
+        let point =
+            |&cell: &u32| ((cell as usize % columns) as f32, (cell as usize / columns) as f32);
+        let (mut x, mut y) = (0.0, 0.0);
+        for (column, row) in self.placed.iter().map(point) {
+            x += column / k;
+            y += row / k;
+        }
+        let squares: f32 =
+            self.placed.iter().map(point).map(|(cx, cy)| (cx - x).powi(2) + (cy - y).powi(2)).sum();
+        Centre { x, y, spread: (squares / k).sqrt(), alone: self.placed.is_empty() }
+    }
+}
+
+struct Centre {
+    x: f32,
+    y: f32,
+    spread: f32,
+    alone: bool,
+}
+
+impl Centre {
+    /// Distance of a cell in units of √n cells, and of the spread.
+    fn distance(&self, cell: u32, columns: usize, n: f32) -> (f32, f32) {
+        if self.alone {
+            return (0.0, 0.0);
+        }
+        let column = (cell as usize % columns) as f32;
+        let row = (cell as usize / columns) as f32;
+        let cells = (column - self.x).hypot(row - self.y);
+        (cells / n.sqrt(), cells / (1.0 + self.spread))
+    }
+}
+
+fn bounded(value: f32) -> f32 {
+    value.clamp(-LIMIT, LIMIT)
+}
+
+/// 1/x, or 0 where there is nothing to divide by.
+fn reciprocal(value: f32) -> f32 {
+    if value > 1e-12 { 1.0 / value } else { 0.0 }
+}
+
+/// Keeps the cells with the largest values, ties to the lower index.
+fn keep_largest(cells: &mut Vec<u32>, count: usize, value: impl Fn(u32) -> f32) {
+    if cells.len() > count {
+        let mut keyed: Vec<(f32, u32)> = cells.iter().map(|&cell| (value(cell), cell)).collect();
+        if count > 0 {
+            keyed.select_nth_unstable_by(count - 1, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        }
+        cells.clear();
+        cells.extend(keyed[..count].iter().map(|&(_, cell)| cell));
+    }
+}
