@@ -32,12 +32,14 @@ pub(crate) enum Preset {
 
 /// Arguments of `train placement`.
 #[derive(Debug, Args)]
-#[command(after_help = "Writes checkpoint.bin, metrics.jsonl, timings.jsonl, TensorBoard events, training.png and .svg, and\n\
+#[command(
+    after_help = "Writes checkpoint.bin, metrics.jsonl, timings.jsonl, TensorBoard events, training.png and .svg, and\n\
     the policy as .onnx (and .weights, which `place --weights` takes).\n\nExamples:\n  \
     sonarfleet train placement --output policy                  the policy that ships, as its header says\n  \
     sonarfleet train placement --output policy --resume         goes on where it was stopped\n  \
     sonarfleet train placement instance.npz --method sequential-ppo --preset paper --seconds 250 --output ppo\n  \
-    sonarfleet train placement mission.toml --epoch 1 --from policy/policy.weights --output tuned")]
+    sonarfleet train placement mission.toml --epoch 1 --from policy/policy.weights --output tuned"
+)]
 pub(crate) struct TrainPlacementArgs {
     /// Scenario (.toml) or placement instance (.npz) to train on [default for `policy`: practice oceans]
     pub(crate) input: Option<PathBuf>,

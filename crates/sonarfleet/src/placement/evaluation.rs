@@ -4,6 +4,9 @@ use crate::sonar::objective::penalised_reward;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
+/// Multiplier λₖ of the reward R by which methods that may end infeasible are compared.
+pub const SCORING_MULTIPLIER: f64 = 30.0;
+
 /// Detection utility and connectivity of a layout, from a full evaluation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {

@@ -3,8 +3,10 @@
 use super::Solver;
 use super::annealing::Annealing;
 use super::auto::Auto;
+use super::genetic::Genetic;
 use super::greedy::{ConnectedGreedy, Greedy};
 use super::local_search::LocalSearch;
+use super::particle_swarm::ParticleSwarm;
 use super::random::RandomSearch;
 use std::str::FromStr;
 use thiserror::Error;
@@ -22,6 +24,14 @@ pub enum Method {
     LocalSearch,
     /// Simulated annealing with swaps.
     Annealing,
+    /// Particle swarm optimisation from feasible layouts.
+    ParticleSwarm,
+    /// A genetic algorithm from feasible layouts.
+    Genetic,
+    /// Particle swarm optimisation as the paper ran it, from random layouts.
+    ParticleSwarmPaper,
+    /// A genetic algorithm as the paper ran it, from random layouts.
+    GeneticPaper,
     /// The paper's policy, trained on the problem with our settings.
     SequentialPpo,
     /// The same with the paper's settings.
@@ -38,12 +48,16 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 15] = [
         Self::Random,
         Self::Greedy,
         Self::ConnectedGreedy,
         Self::LocalSearch,
         Self::Annealing,
+        Self::ParticleSwarm,
+        Self::Genetic,
+        Self::ParticleSwarmPaper,
+        Self::GeneticPaper,
         Self::SequentialPpo,
         Self::SequentialPpoPaper,
         Self::ExchangePpo,
@@ -60,6 +74,10 @@ impl Method {
             Self::ConnectedGreedy => "connected-greedy",
             Self::LocalSearch => "local-search",
             Self::Annealing => "annealing",
+            Self::ParticleSwarm => "particle-swarm",
+            Self::Genetic => "genetic",
+            Self::ParticleSwarmPaper => "particle-swarm-paper",
+            Self::GeneticPaper => "genetic-paper",
             Self::SequentialPpo => "sequential-ppo",
             Self::SequentialPpoPaper => "sequential-ppo-paper",
             Self::ExchangePpo => "exchange-ppo",
@@ -78,6 +96,10 @@ impl Method {
             Self::ConnectedGreedy => Box::new(ConnectedGreedy),
             Self::LocalSearch => Box::new(LocalSearch),
             Self::Annealing => Box::new(Annealing::default()),
+            Self::ParticleSwarm => Box::new(ParticleSwarm::default()),
+            Self::Genetic => Box::new(Genetic::default()),
+            Self::ParticleSwarmPaper => Box::new(ParticleSwarm::PAPER),
+            Self::GeneticPaper => Box::new(Genetic::PAPER),
             Self::Auto => Box::new(Auto::default()),
             Self::SequentialPpo
             | Self::SequentialPpoPaper

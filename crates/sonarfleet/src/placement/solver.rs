@@ -136,4 +136,16 @@ impl Meter {
             Budget::Seconds(limit) => self.start.elapsed().as_secs_f64() / limit.max(1e-9),
         }
     }
+
+    /// How many of `wanted` further evaluations the budget allows, one at least before
+    /// there was any; by the clock, all or none.
+    pub(super) fn affordable(&self, evaluations: u64, wanted: usize) -> usize {
+        match self.budget {
+            Budget::Evaluations(limit) => {
+                wanted.min(limit.max(1).saturating_sub(evaluations) as usize)
+            }
+            Budget::Seconds(_) if evaluations == 0 || self.used(evaluations) < 1.0 => wanted,
+            Budget::Seconds(_) => 0,
+        }
+    }
 }

@@ -23,9 +23,7 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
         let practice = |index| practice_on(&tables, args.seed, index);
         let training = match (kept, &args.from) {
             (Some(kept), _) => kept,
-            (None, Some(from)) => {
-                Training::improving(Network::load(from)?, settings(args))
-            }
+            (None, Some(from)) => Training::improving(Network::load(from)?, settings(args)),
             (None, None) => Training::new(settings(args)),
         };
         let training = run(args, training, &practice, 1.0, manner)?;

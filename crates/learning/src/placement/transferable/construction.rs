@@ -222,7 +222,8 @@ impl<'l> Construction<'l> {
         let anywhere = self.placed.is_empty();
         let is_free = |&cell: &u32| self.free[cell as usize];
         candidates.clear();
-        let mut free: Vec<u32> = self.landscape.deployable.iter().copied().filter(is_free).collect();
+        let mut free: Vec<u32> =
+            self.landscape.deployable.iter().copied().filter(is_free).collect();
         let linked = |cell: u32| anywhere || self.degrees[cell as usize] > LINKED;
         let mut near: Vec<u32> = free.iter().copied().filter(|&cell| linked(cell)).collect();
         if near.is_empty() {
@@ -348,7 +349,8 @@ impl<'l> Construction<'l> {
     fn centre(&self) -> Centre {
         let columns = self.landscape.columns;
         let k = self.placed.len().max(1) as f32;
-        let point = |&cell: &u32| ((cell as usize % columns) as f32, (cell as usize / columns) as f32);
+        let point =
+            |&cell: &u32| ((cell as usize % columns) as f32, (cell as usize / columns) as f32);
         let (mut x, mut y) = (0.0, 0.0);
         for (column, row) in self.placed.iter().map(point) {
             x += column / k;
@@ -400,4 +402,3 @@ fn keep_largest(cells: &mut Vec<u32>, count: usize, value: impl Fn(u32) -> f32) 
         cells.extend(keyed[..count].iter().map(|&(_, cell)| cell));
     }
 }
-

@@ -53,8 +53,7 @@ impl Decoding {
         let [low, high] = self.range;
         let probes = self.probes.max(1);
         let between = |i: usize| (i as f64 + 0.5) / probes as f64;
-        let aims: Vec<f64> =
-            (0..probes).map(|i| low * (high / low).powf(between(i))).collect();
+        let aims: Vec<f64> = (0..probes).map(|i| low * (high / low).powf(between(i))).collect();
         let mut samples = self.round(network, landscape, &aims, seed, 0);
         for _ in 0..self.rounds {
             let (aim, spread) = self.fit(&samples, landscape.problem.connectivity_threshold());
@@ -83,8 +82,7 @@ impl Decoding {
             .enumerate()
             .map_init(Workspace::default, |workspace, (index, &aim)| {
                 let mut random = stream(seed, "placement/policy", drawn + index as u64);
-                let drawing =
-                    Drawing { threshold: aim * threshold, temperature: self.temperature };
+                let drawing = Drawing { threshold: aim * threshold, temperature: self.temperature };
                 let layout =
                     build(network, landscape, drawing, &mut random, workspace, |_, _, _| {});
                 let evaluation = landscape.problem.evaluate(&layout);

@@ -37,9 +37,8 @@ pub(super) fn lessons(
         let count = observation.cells.len();
         network.forward(&observation.features, count, activations);
         let choices = Distribution::new(&activations.logits[..count], 1.0);
-        let wanted: Vec<usize> = (0..count)
-            .filter(|&candidate| left.contains(&observation.cells[candidate]))
-            .collect();
+        let wanted: Vec<usize> =
+            (0..count).filter(|&candidate| left.contains(&observation.cells[candidate])).collect();
         if wanted.is_empty() {
             let next = left.swap_remove(random.random_range(0..left.len()));
             construction.place(next);

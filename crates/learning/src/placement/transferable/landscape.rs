@@ -17,11 +17,7 @@ pub(super) struct SparseRows {
 
 impl SparseRows {
     /// The large values of some columns of rows that are handed over one by one.
-    fn new<'v>(
-        rows: usize,
-        columns: &[u32],
-        row: impl Fn(usize) -> &'v [f64],
-    ) -> Self {
+    fn new<'v>(rows: usize, columns: &[u32], row: impl Fn(usize) -> &'v [f64]) -> Self {
         let mut sparse = Self::default();
         for index in 0..rows {
             let values = row(index);

@@ -396,9 +396,8 @@ mod tests {
                 (0..HIDDEN).map(unit).collect()
             })
             .collect();
-        let mean: Vec<f64> = (0..HIDDEN)
-            .map(|j| first.iter().map(|h| h[j]).sum::<f64>() / count as f64)
-            .collect();
+        let mean: Vec<f64> =
+            (0..HIDDEN).map(|j| first.iter().map(|h| h[j]).sum::<f64>() / count as f64).collect();
         first
             .iter()
             .map(|h| {
@@ -426,7 +425,8 @@ mod tests {
             let mut activations = Activations::default();
             network.forward(&features, count, &mut activations);
             let exact: Vec<f64> = network.weights.iter().map(|&w| f64::from(w)).collect();
-            for (logit, expected) in activations.logits.iter().zip(naive(&exact, &features, count)) {
+            for (logit, expected) in activations.logits.iter().zip(naive(&exact, &features, count))
+            {
                 assert!((f64::from(*logit) - expected).abs() < 1e-4);
             }
 

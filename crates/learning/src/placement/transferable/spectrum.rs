@@ -127,7 +127,8 @@ mod tests {
         let mut errors = Vec::new();
         for seed in 0..20 {
             let mut random = stream(seed, "test/spectrum", 0);
-            let points: Vec<[f64; 2]> = (0..40).map(|_| [random.random(), random.random()]).collect();
+            let points: Vec<[f64; 2]> =
+                (0..40).map(|_| [random.random(), random.random()]).collect();
             let link = |i: usize, j: usize| {
                 let [dx, dy] = [0, 1].map(|axis| points[i][axis] - points[j][axis]);
                 if i == j { 0.0 } else { (-12.0 * (dx * dx + dy * dy)).exp() }

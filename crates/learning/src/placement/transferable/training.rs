@@ -285,12 +285,7 @@ impl Training {
         if self.imitated == of {
             self.adam = Adam::new(WEIGHTS, EPSILON);
         }
-        Progress::Imitated {
-            done: self.imitated,
-            of,
-            loss: summary.loss,
-            entropy: summary.entropy,
-        }
+        Progress::Imitated { done: self.imitated, of, loss: summary.loss, entropy: summary.entropy }
     }
 
     fn improve(&mut self, practice: &Practice<'_>) -> Progress {

@@ -3,9 +3,9 @@
 use super::network::{HIDDEN, Network, WEIGHTS};
 use super::observation::FEATURES;
 use super::policy::TransferablePolicy;
+use crate::files::FileError;
 use crate::files::onnx::{Linear, Notes, PlacementNetwork};
 use crate::files::weights::{Precision, Weights};
-use crate::files::FileError;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -44,11 +44,7 @@ impl Network {
         if weights.sizes == expected && weights.values.len() == WEIGHTS {
             Ok(Self { weights: weights.values })
         } else {
-            Err(FileError::OtherSizes {
-                path: path.to_owned(),
-                found: weights.sizes,
-                expected,
-            })
+            Err(FileError::OtherSizes { path: path.to_owned(), found: weights.sizes, expected })
         }
     }
 
