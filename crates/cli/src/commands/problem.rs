@@ -6,7 +6,7 @@ use crate::progress::StageBars;
 use anyhow::{Context, Result, bail};
 use sonarfleet::mission::{Environment, Theatre, input};
 use sonarfleet::placement::{Method, PlacementInput, PlacementProblem, instance};
-use sonarfleet::scenario::PlacementSection;
+use sonarfleet::scenario::{PlacementSection, Scenario};
 use std::path::Path;
 
 /// Where a problem comes from.
@@ -35,6 +35,14 @@ pub(super) struct Defaults {
 impl ProblemSource<'_> {
     /// The problem, and what its source says of solving it.
     pub(super) fn problem(&self, manner: Manner) -> Result<(PlacementProblem, Defaults)> {
+        let (input, defaults) = self.input(manner)?;
+        let problem =
+            PlacementProblem::new(&input).with_context(|| format!("{}", self.input.display()))?;
+        Ok((problem, defaults))
+    }
+
+    /// What the problem is made of, and what its source says of solving it.
+    pub(super) fn input(&self, manner: Manner) -> Result<(PlacementInput, Defaults)> {
         let instance = self.input.extension().is_some_and(|extension| extension == "npz");
         let (mut input, defaults) =
             if instance { self.of_instance()? } else { self.of_scenario(manner)? };
@@ -44,9 +52,7 @@ impl ProblemSource<'_> {
         if let Some(threshold) = self.threshold {
             input.connectivity_threshold = threshold;
         }
-        let problem =
-            PlacementProblem::new(&input).with_context(|| format!("{}", self.input.display()))?;
-        Ok((problem, defaults))
+        Ok((input, defaults))
     }
 
     fn of_instance(&self) -> Result<(PlacementInput, Defaults)> {
@@ -68,20 +74,29 @@ impl ProblemSource<'_> {
         if let Some(path) = self.communication_loss {
             scenario.epochs[self.epoch].communication_loss_file = Some(path.to_owned());
         }
-        let theatre = Theatre::of(&scenario)?;
-        let cache = super::loss_cache(self.cache);
-        let bars = StageBars::new(!manner.talkative());
-        let environment =
-            Environment::at(&scenario, &theatre, self.epoch, cache.as_ref(), &|event| {
-                bars.tell(&event, |_, stage| stage.to_string());
-            })?;
-        let defaults = Defaults {
-            method: scenario.method,
-            evaluations: scenario.file.placement.evaluations,
-            seed: scenario.seed_of(self.epoch),
-        };
-        let communication = environment.communication_loss.as_ref().map(|loss| &loss.table);
-        let loss = &environment.loss.table;
-        Ok((input(&scenario, &theatre, self.epoch, loss, communication), defaults))
+        of_epoch(&scenario, self.epoch, self.cache, manner)
     }
+}
+
+/// The problem of a scenario's epoch, and what the scenario says of solving it.
+pub(super) fn of_epoch(
+    scenario: &Scenario,
+    epoch: usize,
+    cache: &CacheArgs,
+    manner: Manner,
+) -> Result<(PlacementInput, Defaults)> {
+    let theatre = Theatre::of(scenario)?;
+    let cache = super::loss_cache(cache);
+    let bars = StageBars::new(!manner.talkative());
+    let environment = Environment::at(scenario, &theatre, epoch, cache.as_ref(), &|event| {
+        bars.tell(&event, |_, stage| stage.to_string());
+    })?;
+    let defaults = Defaults {
+        method: scenario.method,
+        evaluations: scenario.file.placement.evaluations,
+        seed: scenario.seed_of(epoch),
+    };
+    let communication = environment.communication_loss.as_ref().map(|loss| &loss.table);
+    let loss = &environment.loss.table;
+    Ok((input(scenario, &theatre, epoch, loss, communication), defaults))
 }

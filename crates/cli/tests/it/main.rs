@@ -7,3 +7,4 @@ mod closed_loop;
 mod links;
 mod loss_tables;
 mod program;
+mod reproduce;
