@@ -1,6 +1,6 @@
 //! Fig. 7: a policy trained for a larger fleet, cut short.
 
-use super::score::{Score, text};
+use super::score::{Score, reward, text};
 use super::study::{POLICY, SWARM, SWARM_PAPER, Study, scores};
 use super::training::{self, Course};
 use super::{Outcome, Row};
@@ -39,13 +39,21 @@ pub(super) fn fig7(study: &mut Study, stem: &Path) -> Result<Outcome> {
             found.push((contestant.words.into(), scores(&solved)));
         }
     }
+    let beaten = |cut: &[Score]| {
+        let others = found[1..].iter().filter(|(_, scores)| reward(scores) < reward(cut));
+        let names: Vec<&str> = others.map(|(name, _)| name.as_str()).collect();
+        if names.is_empty() { "none of the others".into() } else { names.join("; ") }
+    };
     let rows = found
         .iter()
-        .map(|(name, scores)| Row {
-            figure: "Fig. 7",
-            what: name.clone(),
-            paper: if *name == cut_name { "beats PSO and exchange PPO at 40" } else { "–" },
-            ours: text(scores),
+        .map(|(name, scores)| {
+            let (paper, verdict) = if *name == cut_name {
+                ("beats PSO and exchange PPO at 40", format!("; beats {}", beaten(scores)))
+            } else {
+                ("–", String::new())
+            };
+            let ours = format!("{}{verdict}", text(scores));
+            Row { figure: "Fig. 7", what: name.clone(), paper, ours }
         })
         .collect::<Vec<_>>();
     let record = ScoresRecord {

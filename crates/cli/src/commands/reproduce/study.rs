@@ -40,12 +40,12 @@ pub(super) const SWARM: Contestant =
     contestant("particle-swarm", "PSO, feasible starts", 30 * 2001);
 /// It ends by itself.
 pub(super) const SWARM_PAPER: Contestant =
-    contestant("particle-swarm-paper", "PSO as the paper", u64::MAX);
+    contestant("particle-swarm-paper", "PSO as the paper ran it", u64::MAX);
 /// 500 generations of 100.
 pub(super) const GENETIC: Contestant = contestant("genetic", "GA, feasible starts", 501 * 100);
 /// It ends by itself.
 pub(super) const GENETIC_PAPER: Contestant =
-    contestant("genetic-paper", "GA as the paper", u64::MAX);
+    contestant("genetic-paper", "GA as the paper ran it", u64::MAX);
 
 impl Contestant {
     /// Whether the program knows the method.
