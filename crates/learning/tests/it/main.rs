@@ -4,3 +4,4 @@ mod onnx;
 mod ocean;
 mod paper;
 mod ppo;
+mod transferable;

@@ -102,11 +102,6 @@ impl<'l> Construction<'l> {
         self.placed.len() == self.landscape.stations()
     }
 
-    /// Whether a vehicle may be placed in a cell.
-    pub(super) fn is_free(&self, cell: u32) -> bool {
-        self.free[cell as usize]
-    }
-
     /// Places a vehicle.
     pub(super) fn place(&mut self, cell: u32) {
         debug_assert!(self.free[cell as usize], "one vehicle per cell");
@@ -258,15 +253,15 @@ impl<'l> Construction<'l> {
         let expected: f32 = landscape.residual.iter().sum();
         let shared = [
             k / n,
-            bounded(second / threshold),
-            bounded(second * whole),
-            bounded(third * whole),
+            second / threshold,
+            second * whole,
+            third * whole,
             self.utility * reciprocal(expected),
             best_gain * per_first,
-            if k > 0.0 { bounded(smallest / threshold) } else { 0.0 },
-            bounded((n / 40.0).ln()),
-            bounded(n * landscape.best_first_gain * reciprocal(expected) / 4.0),
-            bounded(landscape.best_reach.ln_1p() / 2.0),
+            if k > 0.0 { smallest / threshold } else { 0.0 },
+            (n / 40.0).ln(),
+            n * landscape.best_first_gain * reciprocal(expected) / 4.0,
+            landscape.best_reach.ln_1p() / 2.0,
         ];
         let centre = self.centre();
         for (lane, &cell) in observation.cells.iter().enumerate() {
@@ -286,21 +281,21 @@ impl<'l> Construction<'l> {
                 gain * reciprocal(first_gain),
                 degree.ln_1p(),
                 (-degree).exp(),
-                bounded(raised / threshold),
-                bounded(raised * per_step),
-                (-raised * per_step).exp(),
-                bounded(k * (raised - second) / threshold),
-                bounded(raised_third / threshold),
-                bounded(raised_third * per_step),
-                (-raised_third * per_step).exp(),
-                bounded(k * (raised_third - third) / threshold),
-                bounded(position),
-                bounded(position_third),
+                raised / threshold,
+                raised * per_step,
+                (-raised * per_step).min(0.0).exp(),
+                k * (raised - second) / threshold,
+                raised_third / threshold,
+                raised_third * per_step,
+                (-raised_third * per_step).min(0.0).exp(),
+                k * (raised_third - third) / threshold,
+                position,
+                position_third,
                 self.sums.values[at][4],
-                bounded(distance),
-                bounded(relative),
+                distance,
+                relative,
                 near_mean * per_gain,
-                (near_sum * per_gain).ln_1p() / 3.0,
+                (near_sum * per_gain).max(0.0).ln_1p() / 3.0,
                 landscape.potential[at],
                 landscape.reach[at],
                 around,
@@ -308,7 +303,7 @@ impl<'l> Construction<'l> {
                 self.residual[at] / landscape.largest_prior,
             ];
             for (row, value) in observation.features.iter_mut().zip(own.iter().chain(&shared)) {
-                row[lane] = *value;
+                row[lane] = bounded(*value);
             }
         }
         let count = observation.cells.len();
@@ -382,8 +377,9 @@ impl Centre {
     }
 }
 
+/// Within the limits; what is not a number, 0 divided by 0, is 0.
 fn bounded(value: f32) -> f32 {
-    value.clamp(-LIMIT, LIMIT)
+    if value.is_nan() { 0.0 } else { value.clamp(-LIMIT, LIMIT) }
 }
 
 /// 1/x, or 0 where there is nothing to divide by.
