@@ -16,5 +16,5 @@ mod ticks;
 mod valid;
 
 pub use error::ReportError;
-pub use figures::{write_figures, write_training};
+pub use figures::{write_comparison, write_figures, write_training};
 pub use html::write_report;

@@ -5,7 +5,7 @@ mod bench;
 mod train;
 
 pub(crate) use bellhop::{BellhopArgs, ModelName};
-pub(crate) use bench::{BenchAcousticsArgs, BenchCommand};
+pub(crate) use bench::{BenchAcousticsArgs, BenchCommand, BenchPlacementArgs};
 pub(crate) use train::{PlacementPolicy, Preset, TrainCommand, TrainPlacementArgs};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

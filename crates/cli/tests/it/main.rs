@@ -6,4 +6,5 @@ mod bellhop;
 mod closed_loop;
 mod links;
 mod loss_tables;
+mod placement;
 mod program;

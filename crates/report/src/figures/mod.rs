@@ -1,5 +1,6 @@
 //! The figures of a run, each as SVG and PNG.
 
+mod comparison;
 mod map;
 mod placement;
 mod priors;
@@ -12,6 +13,7 @@ use crate::error::written;
 use crate::error::{ReportError, Result};
 use crate::plot::REMARK;
 use crate::{ticks, valid};
+use sonarfleet::placement::comparison::Comparison;
 use sonarfleet::record::{EpochRecord, RunRecord, TrainingRecord};
 use std::path::{Path, PathBuf};
 
@@ -66,13 +68,33 @@ pub fn write_figures(record: &RunRecord, directory: impl AsRef<Path>) -> Result<
 ///
 /// Files that cannot be written.
 pub fn write_training(record: &TrainingRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
-    let stem = stem.as_ref();
+    drawn(&training::draw(record), stem.as_ref())
+}
+
+/// Draws what placement methods achieved as `STEM.svg` and `STEM.png`, whose folder is
+/// made if it is missing, and returns both: a panel per problem with `J_d` of every
+/// trial, filled where it is feasible, each method's median, the best layout found and
+/// the upper bound. The note stands at the foot.
+///
+/// # Errors
+///
+/// Files that cannot be written.
+pub fn write_comparison(
+    comparisons: &[Comparison],
+    note: &str,
+    stem: impl AsRef<Path>,
+) -> Result<Vec<PathBuf>> {
+    drawn(&comparison::draw(comparisons, note), stem.as_ref())
+}
+
+/// One figure in a folder that may be missing.
+fn drawn(canvas: &Canvas, stem: &Path) -> Result<Vec<PathBuf>> {
     if let Some(folder) = stem.parent() {
         std::fs::create_dir_all(folder)
             .map_err(|source| ReportError::Write { path: folder.to_owned(), source })?;
     }
     let mut files = Vec::new();
-    write(&training::draw(record), stem, &mut files)?;
+    write(canvas, stem, &mut files)?;
     Ok(files)
 }
 

@@ -1,5 +1,6 @@
 //! Figures and the report of made-up records, plausible and degenerate.
 
+mod comparison;
 mod figures;
 mod report;
 #[path = "../sample/mod.rs"]

@@ -30,7 +30,7 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
         return finish(args, &training, None, manner);
     };
     let source = ProblemSource {
-        input: path,
+        input: Some(path),
         epoch: args.epoch,
         count: args.count,
         threshold: None,
