@@ -398,3 +398,132 @@ fn keep_largest(cells: &mut Vec<u32>, count: usize, value: impl Fn(u32) -> f32) 
         cells.extend(keyed[..count].iter().map(|&(_, cell)| cell));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::Rng;
+    use sonarfleet::grid::SurveillanceGrid;
+    use sonarfleet::placement::{PlacementInput, PlacementProblem};
+    use sonarfleet::random::stream;
+    use sonarfleet::sonar::detection::{DetectionModel, FalseAlarmProbability, PassiveSonar};
+    use sonarfleet::sonar::link::{LinkModel, Modem};
+    use sonarfleet::sonar::noise::NoiseLevel;
+    use sonarfleet::sonar::prior::TargetPrior;
+
+    const SIDE: usize = 12;
+    const CELLS: usize = SIDE * SIDE;
+
+    /// Single precision, in another order.
+    const ROUNDING: f32 = 2e-3;
+
+    /// Small probabilities are left out.
+    const LEFT_OUT: f64 = 0.05;
+
+    /// The same problem, its grid mirrored at the diagonal if asked for.
+    fn problem(mirrored: bool) -> PlacementProblem {
+        let seen = |cell: usize| if mirrored { mirror(cell) } else { cell };
+        let mut random = stream(11, "test/ocean", 0);
+        let roughness: Vec<f64> = (0..CELLS * CELLS).map(|_| random.random()).collect();
+        let prior: Vec<f64> = (0..CELLS).map(|_| random.random()).collect();
+        let loss = |p: usize, q: usize| {
+            let apart = |a: usize, b: usize| (a as f64 - b as f64).powi(2);
+            let cells = (apart(p % SIDE, q % SIDE) + apart(p / SIDE, q / SIDE)).sqrt();
+            (55.0 + 5.0 * cells + 3.0 * roughness[p * CELLS + q]) as f32
+        };
+        let losses_db =
+            (0..CELLS * CELLS).map(|k| loss(seen(k / CELLS), seen(k % CELLS))).collect();
+        PlacementProblem::new(&PlacementInput {
+            grid: SurveillanceGrid {
+                columns: SIDE,
+                rows: SIDE,
+                cell_width_m: 1000.0,
+                cell_height_m: 1000.0,
+            },
+            prior: TargetPrior::new((0..CELLS).map(|cell| prior[seen(cell)]).collect()).unwrap(),
+            detection_loss_db: losses_db,
+            communication_loss_db: None,
+            sonar: PassiveSonar {
+                source_level_db: 130.0,
+                noise_level_db: NoiseLevel::Uniform(65.0),
+                directivity_index_db: 0.0,
+                detection_threshold_db: 0.0,
+                model: DetectionModel::MeanShift(FalseAlarmProbability::new(1e-3).unwrap()),
+            },
+            modem: Modem {
+                source_level_db: 138.0,
+                noise_level_db: NoiseLevel::Uniform(65.0),
+                model: LinkModel::CoherentBpsk { packet_bits: 256 },
+            },
+            vehicles: 10,
+            connectivity_threshold: 0.9,
+            deployable: None,
+            fixed_sensors: vec![CellId(seen(40))],
+        })
+        .unwrap()
+    }
+
+    fn mirror(cell: usize) -> usize {
+        (cell % SIDE) * SIDE + cell / SIDE
+    }
+
+    /// Columns of features by cell, after each vehicle of a layout.
+    fn observed(mirrored: bool, layout: &[usize]) -> Vec<Vec<(usize, Vec<f32>)>> {
+        let problem = problem(mirrored);
+        let landscape = Landscape::new(&problem);
+        let mut construction = Construction::new(&landscape, 0.9);
+        let mut observation = Observation::default();
+        layout
+            .iter()
+            .map(|&cell| {
+                let seen = |cell: usize| if mirrored { mirror(cell) } else { cell };
+                construction.observe(&mut observation);
+                let of = |lane: usize| observation.features.iter().map(|row| row[lane]).collect();
+                let mut found: Vec<(usize, Vec<f32>)> = (0..observation.cells.len())
+                    .map(|lane| (seen(observation.cells[lane] as usize), of(lane)))
+                    .collect();
+                found.sort_by_key(|(cell, _)| *cell);
+                construction.place(seen(cell) as u32);
+                found
+            })
+            .collect()
+    }
+
+    #[test]
+    fn features_do_not_depend_on_the_orientation() {
+        let layout = [53, 66, 54, 80, 41, 67, 92, 29, 79, 55];
+        for (plain, mirrored) in observed(false, &layout).iter().zip(observed(true, &layout)) {
+            assert_eq!(plain.len(), mirrored.len());
+            for ((cell, features), (same, others)) in plain.iter().zip(&mirrored) {
+                assert_eq!(cell, same);
+                for (at, (a, b)) in features.iter().zip(others).enumerate() {
+                    assert!((a - b).abs() < ROUNDING, "cell {cell}, feature {at}: {a} {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn gains_and_connectivity_are_nearly_those_of_full_evaluations() {
+        let problem = problem(false);
+        let landscape = Landscape::new(&problem);
+        let mut construction = Construction::new(&landscape, 0.9);
+        let mut layout = Vec::new();
+        for cell in [53, 66, 54, 80, 41, 67] {
+            construction.observe(&mut Observation::default());
+            let before = problem.evaluate(&layout);
+            layout.push(CellId(cell));
+            let after = problem.evaluate(&layout);
+            let gain = after.detection_utility - before.detection_utility;
+            let found = f64::from(construction.gains[cell]);
+            assert!((found - gain).abs() < LEFT_OUT * gain, "{cell}: {found} {gain}");
+            let raised = f64::from(construction.sums.raised[cell][0]);
+            if layout.len() > 2 {
+                // The estimate is a Rayleigh quotient: never much below λ₂.
+                assert!(raised > after.algebraic_connectivity - 0.02, "{cell}: {raised}");
+            }
+            construction.place(cell as u32);
+        }
+        assert_eq!(construction.layout(), layout);
+    }
+}
