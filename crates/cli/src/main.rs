@@ -40,6 +40,7 @@ fn dispatch(cli: &Cli) -> anyhow::Result<()> {
         Command::Route(args) => commands::route::route(args, manner),
         Command::Assign(args) => commands::assign::assign(args, manner),
         Command::Train(command) => commands::train::train(command, manner),
+        Command::Reproduce(args) => commands::reproduce::reproduce(args, manner),
         Command::Bench(command) => commands::bench::bench(command, manner),
     }
 }

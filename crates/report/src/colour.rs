@@ -31,6 +31,24 @@ pub(crate) const POST_TINT: Rgb = Rgb(0xf3, 0xb8, 0x8c);
 pub(crate) const FAILURE: Rgb = Rgb(0xb0, 0x1e, 0x3c);
 /// Arrows of current.
 pub(crate) const CURRENT: Rgb = Rgb(0x8d, 0x99, 0xa6);
+/// Methods side by side: Okabe and Ito's colours, told apart whatever one's sight.
+pub(crate) const SERIES: [Rgb; 7] = [
+    Rgb(0x00, 0x72, 0xb2),
+    Rgb(0xd5, 0x5e, 0x00),
+    Rgb(0x00, 0x9e, 0x73),
+    Rgb(0xcc, 0x79, 0xa7),
+    Rgb(0xe6, 0x9f, 0x00),
+    Rgb(0x56, 0xb4, 0xe9),
+    Rgb(0x5f, 0x6b, 0x78),
+];
+
+impl Rgb {
+    /// The colour mixed with as much white and a half.
+    pub(crate) fn tint(self) -> Self {
+        let mixed = |channel: u8| ((u16::from(channel) * 2 + 255 * 3) / 5) as u8;
+        Self(mixed(self.0), mixed(self.1), mixed(self.2))
+    }
+}
 
 /// One of cmocean's colour tables.
 #[derive(Debug, Clone, Copy)]

@@ -44,7 +44,34 @@ impl Axes {
 
     /// The frame with ticks outside, and numbers where asked.
     pub(crate) fn draw(&self, canvas: &mut Canvas, x_label: Option<&str>, y_label: Option<&str>) {
-        let Frame { x, y, width, height } = self.frame;
+        let Frame { x, y, height, .. } = self.frame;
+        self.abscissa(canvas, x_label);
+
+        let count = ((height / 18.0) as usize).clamp(2, 6);
+        let positions = ticks::ticks(self.y[0].min(self.y[1]), self.y[0].max(self.y[1]), count);
+        let mut widest = 0.0_f64;
+        for (&value, text) in positions.iter().zip(ticks::labels(&positions)) {
+            let [_, at] = self.at(self.x[0], value);
+            canvas.line(vec![[x - TICK_LENGTH, at], [x, at]], FRAME_STROKE);
+            if y_label.is_some() {
+                canvas.text([x - TICK_LENGTH - 2.0, at + 2.4], &text, Align::End, TICK);
+                widest = widest.max(text_width(&text, TICK));
+            }
+        }
+        if let Some(label) = y_label {
+            let at = [x - TICK_LENGTH - 2.0 - widest - 5.0, y + height / 2.0];
+            canvas.upright_text(at, label, Align::Middle, LABEL);
+        }
+    }
+
+    /// The frame with ticks, numbers and a label below, for rows that carry names.
+    pub(crate) fn draw_below(&self, canvas: &mut Canvas, label: &str) {
+        self.abscissa(canvas, Some(label));
+    }
+
+    /// The frame and what is below it.
+    fn abscissa(&self, canvas: &mut Canvas, x_label: Option<&str>) {
+        let Frame { x, width, .. } = self.frame;
         let bottom = self.frame.bottom();
         canvas.outline(self.frame, FRAME_STROKE);
 
@@ -57,24 +84,9 @@ impl Axes {
                 canvas.text([at, bottom + TICK_LENGTH + 7.0], &text, Align::Middle, TICK);
             }
         }
-        let count = ((height / 18.0) as usize).clamp(2, 6);
-        let positions = ticks::ticks(self.y[0].min(self.y[1]), self.y[0].max(self.y[1]), count);
-        let mut widest = 0.0_f64;
-        for (&value, text) in positions.iter().zip(ticks::labels(&positions)) {
-            let [_, at] = self.at(self.x[0], value);
-            canvas.line(vec![[x - TICK_LENGTH, at], [x, at]], FRAME_STROKE);
-            if y_label.is_some() {
-                canvas.text([x - TICK_LENGTH - 2.0, at + 2.4], &text, Align::End, TICK);
-                widest = widest.max(text_width(&text, TICK));
-            }
-        }
         if let Some(label) = x_label {
             let at = [x + width / 2.0, bottom + TICK_LENGTH + 16.5];
             canvas.text(at, label, Align::Middle, LABEL);
-        }
-        if let Some(label) = y_label {
-            let at = [x - TICK_LENGTH - 2.0 - widest - 5.0, y + height / 2.0];
-            canvas.upright_text(at, label, Align::Middle, LABEL);
         }
     }
 

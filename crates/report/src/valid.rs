@@ -2,21 +2,13 @@
 //! once before drawing, so that nothing below can index out of bounds.
 
 use crate::error::{ReportError, Result};
-use sonarfleet::grid::CellId;
-use sonarfleet::record::{EpochRecord, RunRecord};
+use sonarfleet::grid::{CellId, SurveillanceGrid};
+use sonarfleet::record::{EpochRecord, LayoutsRecord, RunRecord};
 
 /// Checks every shape and every cell of a record.
 pub(crate) fn check(record: &RunRecord) -> Result<()> {
     let grid = record.grid;
-    let has_area = grid.width_m() > 0.0 && grid.height_m() > 0.0;
-    if !has_area || !(grid.width_m() + grid.height_m()).is_finite() {
-        return Err(ReportError::Grid {
-            columns: grid.columns,
-            rows: grid.rows,
-            cell_width_m: grid.cell_width_m,
-            cell_height_m: grid.cell_height_m,
-        });
-    }
+    check_area(grid)?;
     let count = grid.cell_count();
     shape("cell_longitude_deg", None, count, record.cell_longitude_deg.len())?;
     shape("cell_latitude_deg", None, count, record.cell_latitude_deg.len())?;
@@ -24,6 +16,32 @@ pub(crate) fn check(record: &RunRecord) -> Result<()> {
     cells("blocked_cells", None, count, &record.blocked_cells)?;
     cells("fixed_sensors", None, count, &record.fixed_sensors)?;
     record.epochs.iter().try_for_each(|epoch| check_epoch(epoch, count))
+}
+
+/// Checks every shape and every cell of layouts side by side.
+pub(crate) fn check_layouts(record: &LayoutsRecord) -> Result<()> {
+    check_area(record.grid)?;
+    let count = record.grid.cell_count();
+    shape("prior", None, count, record.prior.len())?;
+    cells("blocked_cells", None, count, &record.blocked_cells)?;
+    cells("fixed_sensors", None, count, &record.fixed_sensors)?;
+    record.layouts.iter().try_for_each(|layout| {
+        shape("detection_probability", None, count, layout.detection_probability.len())?;
+        cells("cells", None, count, &layout.cells)
+    })
+}
+
+fn check_area(grid: SurveillanceGrid) -> Result<()> {
+    let has_area = grid.width_m() > 0.0 && grid.height_m() > 0.0;
+    if has_area && (grid.width_m() + grid.height_m()).is_finite() {
+        return Ok(());
+    }
+    Err(ReportError::Grid {
+        columns: grid.columns,
+        rows: grid.rows,
+        cell_width_m: grid.cell_width_m,
+        cell_height_m: grid.cell_height_m,
+    })
 }
 
 fn check_epoch(epoch: &EpochRecord, count: usize) -> Result<()> {

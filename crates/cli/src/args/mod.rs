@@ -2,10 +2,12 @@
 
 mod bellhop;
 mod bench;
+mod reproduce;
 mod train;
 
 pub(crate) use bellhop::{BellhopArgs, ModelName};
 pub(crate) use bench::{BenchAcousticsArgs, BenchCommand, BenchPlacementArgs};
+pub(crate) use reproduce::{Figure, ReproduceArgs};
 pub(crate) use train::{PlacementPolicy, Preset, TrainCommand, TrainPlacementArgs};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     /// Train the policies that place the fleet
     #[command(subcommand)]
     Train(TrainCommand),
+    /// Print the paper's placement results beside ours, and draw its figures
+    Reproduce(ReproduceArgs),
     /// Measure how fast and how good we are, beside our peers
     #[command(subcommand)]
     Bench(BenchCommand),

@@ -7,6 +7,7 @@ pub(crate) mod check;
 pub(crate) mod init;
 pub(crate) mod ocean;
 pub(crate) mod place;
+pub(crate) mod reproduce;
 pub(crate) mod route;
 pub(crate) mod run;
 pub(crate) mod tl;

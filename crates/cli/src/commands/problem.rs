@@ -6,7 +6,7 @@ use crate::progress::StageBars;
 use anyhow::{Context, Result, bail};
 use sonarfleet::mission::{Environment, Theatre, input};
 use sonarfleet::placement::{Method, PlacementInput, PlacementProblem, instance};
-use sonarfleet::scenario::PlacementSection;
+use sonarfleet::scenario::{PlacementSection, Scenario};
 use std::path::Path;
 
 /// Where a problem comes from.
@@ -80,20 +80,29 @@ impl ProblemSource<'_> {
         if let Some(path) = self.communication_loss {
             scenario.epochs[self.epoch].communication_loss_file = Some(path.to_owned());
         }
-        let theatre = Theatre::of(&scenario)?;
-        let cache = super::loss_cache(self.cache);
-        let bars = StageBars::new(!manner.talkative());
-        let environment =
-            Environment::at(&scenario, &theatre, self.epoch, cache.as_ref(), &|event| {
-                bars.tell(&event, |_, stage| stage.to_string());
-            })?;
-        let defaults = Defaults {
-            method: scenario.method,
-            evaluations: scenario.file.placement.evaluations,
-            seed: scenario.seed_of(self.epoch),
-        };
-        let communication = environment.communication_loss.as_ref().map(|loss| &loss.table);
-        let loss = &environment.loss.table;
-        Ok((input(&scenario, &theatre, self.epoch, loss, communication), defaults))
+        of_epoch(&scenario, self.epoch, self.cache, manner)
     }
+}
+
+/// The problem of a scenario's epoch, and what the scenario says of solving it.
+pub(super) fn of_epoch(
+    scenario: &Scenario,
+    epoch: usize,
+    cache: &CacheArgs,
+    manner: Manner,
+) -> Result<(PlacementInput, Defaults)> {
+    let theatre = Theatre::of(scenario)?;
+    let cache = super::loss_cache(cache);
+    let bars = StageBars::new(!manner.talkative());
+    let environment = Environment::at(scenario, &theatre, epoch, cache.as_ref(), &|event| {
+        bars.tell(&event, |_, stage| stage.to_string());
+    })?;
+    let defaults = Defaults {
+        method: scenario.method,
+        evaluations: scenario.file.placement.evaluations,
+        seed: scenario.seed_of(epoch),
+    };
+    let communication = environment.communication_loss.as_ref().map(|loss| &loss.table);
+    let loss = &environment.loss.table;
+    Ok((input(scenario, &theatre, epoch, loss, communication), defaults))
 }

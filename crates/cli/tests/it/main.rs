@@ -8,3 +8,4 @@ mod links;
 mod loss_tables;
 mod placement;
 mod program;
+mod reproduce;

@@ -5,25 +5,58 @@ use crate::colour::{INK, Rgb, WHITE};
 use crate::contour::contour;
 use crate::plot::{Axes, Scale};
 use crate::ticks;
-use sonarfleet::grid::{CellId, Position};
-use sonarfleet::record::RunRecord;
+use sonarfleet::grid::{CellId, Position, SurveillanceGrid};
+use sonarfleet::record::{LayoutsRecord, RunRecord};
 
 pub(super) const M_PER_KM: f64 = 1000.0;
 pub(super) const EAST: &str = "East (km)";
 pub(super) const NORTH: &str = "North (km)";
 
+/// What maps show of a region, whatever their fields.
+#[derive(Clone, Copy)]
+pub(super) struct Region<'a> {
+    grid: SurveillanceGrid,
+    blocked_cells: &'a [CellId],
+    fixed_sensors: &'a [CellId],
+    /// [row, column]; empty where it is not known.
+    cell_depth_m: &'a [f32],
+}
+
+impl<'a> From<&'a RunRecord> for Region<'a> {
+    fn from(record: &'a RunRecord) -> Self {
+        Self {
+            grid: record.grid,
+            blocked_cells: &record.blocked_cells,
+            fixed_sensors: &record.fixed_sensors,
+            cell_depth_m: &record.cell_depth_m,
+        }
+    }
+}
+
+impl<'a> From<&'a LayoutsRecord> for Region<'a> {
+    fn from(record: &'a LayoutsRecord) -> Self {
+        Self {
+            grid: record.grid,
+            blocked_cells: &record.blocked_cells,
+            fixed_sensors: &record.fixed_sensors,
+            cell_depth_m: &[],
+        }
+    }
+}
+
 /// A map of the region and `margin_m` around it.
 pub(super) struct Map<'a> {
     pub(super) axes: Axes,
-    record: &'a RunRecord,
+    region: Region<'a>,
 }
 
 impl<'a> Map<'a> {
     /// The largest map of equal aspect in a box, at the box's top, centred across.
-    pub(super) fn new(record: &'a RunRecord, margin_m: f64, room: Frame) -> Self {
+    pub(super) fn new(region: impl Into<Region<'a>>, margin_m: f64, room: Frame) -> Self {
+        let region = region.into();
         let margin = margin_m / M_PER_KM;
-        let width = record.grid.width_m() / M_PER_KM + 2.0 * margin;
-        let height = record.grid.height_m() / M_PER_KM + 2.0 * margin;
+        let width = region.grid.width_m() / M_PER_KM + 2.0 * margin;
+        let height = region.grid.height_m() / M_PER_KM + 2.0 * margin;
         let scale = (room.width / width).min(room.height / height);
         let frame = Frame::new(
             room.x + (room.width - width * scale) / 2.0,
@@ -32,12 +65,18 @@ impl<'a> Map<'a> {
             height * scale,
         );
         let axes = Axes { frame, x: [-margin, width - margin], y: [-margin, height - margin] };
-        Self { axes, record }
+        Self { axes, region }
     }
 
     /// Height of a map `width` points wide, at most `limit`.
-    pub(super) fn height(record: &RunRecord, margin_m: f64, width: f64, limit: f64) -> f64 {
-        let (east, north) = (record.grid.width_m(), record.grid.height_m());
+    pub(super) fn height(
+        region: impl Into<Region<'a>>,
+        margin_m: f64,
+        width: f64,
+        limit: f64,
+    ) -> f64 {
+        let grid = region.into().grid;
+        let (east, north) = (grid.width_m(), grid.height_m());
         (width * (north + 2.0 * margin_m) / (east + 2.0 * margin_m)).min(limit)
     }
 
@@ -47,7 +86,7 @@ impl<'a> Map<'a> {
 
     /// A field of the surveillance grid, [row, column].
     pub(super) fn field(&self, canvas: &mut Canvas, value: impl Fn(CellId) -> f64, scale: Scale) {
-        let grid = self.record.grid;
+        let grid = self.region.grid;
         let edges = |count: usize, step: f64| -> Vec<f64> {
             (0..=count).map(|k| k as f64 * step / M_PER_KM).collect()
         };
@@ -58,8 +97,8 @@ impl<'a> Map<'a> {
 
     /// Hatches the cells where no vehicle may be placed.
     pub(super) fn blocked(&self, canvas: &mut Canvas) {
-        let grid = self.record.grid;
-        for &cell in &self.record.blocked_cells {
+        let grid = self.region.grid;
+        for &cell in self.region.blocked_cells {
             let (column, row) = grid.column_row(cell);
             let span = |index: usize, step: f64| {
                 [index as f64, index as f64 + 1.0].map(|k| k * step / M_PER_KM)
@@ -72,17 +111,17 @@ impl<'a> Map<'a> {
     /// White circles with dark rims at cells' centres; diamonds for fixed sensors.
     pub(super) fn sensors(&self, canvas: &mut Canvas, layout: &[CellId]) {
         for &cell in layout {
-            ring(canvas, self.at(self.record.grid.centre(cell)), WHITE);
+            ring(canvas, self.at(self.region.grid.centre(cell)), WHITE);
         }
-        for &cell in &self.record.fixed_sensors {
-            diamond(canvas, self.at(self.record.grid.centre(cell)), 3.2, WHITE);
+        for &cell in self.region.fixed_sensors {
+            diamond(canvas, self.at(self.region.grid.centre(cell)), 3.2, WHITE);
         }
     }
 
     /// Contours of the water depth through the cells' centres.
     pub(super) fn bathymetry(&self, canvas: &mut Canvas, stroke: Stroke) {
-        let grid = self.record.grid;
-        let depth = |column, row| f64::from(self.record.cell_depth_m[row * grid.columns + column]);
+        let grid = self.region.grid;
+        let depth = |column, row| f64::from(self.region.cell_depth_m[row * grid.columns + column]);
         for level in self.depth_levels() {
             for segment in contour(grid.columns, grid.rows, depth, level) {
                 let points = segment.map(|[column, row]| {
@@ -98,7 +137,7 @@ impl<'a> Map<'a> {
 
     /// Depths of the contours, metres: round, about six.
     pub(super) fn depth_levels(&self) -> Vec<f64> {
-        let depths = self.record.cell_depth_m.iter().map(|&depth| f64::from(depth));
+        let depths = self.region.cell_depth_m.iter().map(|&depth| f64::from(depth));
         ticks::range(depths).map_or_else(Vec::new, |(low, high)| ticks::ticks(low, high, 6))
     }
 }

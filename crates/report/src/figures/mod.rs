@@ -1,10 +1,13 @@
 //! The figures of a run, each as SVG and PNG.
 
+mod chart;
 mod comparison;
+mod layouts;
 mod map;
 mod placement;
 mod priors;
 mod routes;
+mod scores;
 mod sound_speed;
 mod training;
 
@@ -14,7 +17,9 @@ use crate::error::{ReportError, Result};
 use crate::plot::REMARK;
 use crate::{ticks, valid};
 use sonarfleet::placement::comparison::Comparison;
-use sonarfleet::record::{EpochRecord, RunRecord, TrainingRecord};
+use sonarfleet::record::{
+    ChartRecord, EpochRecord, LayoutsRecord, RunRecord, ScoresRecord, TrainingRecord,
+};
 use std::path::{Path, PathBuf};
 
 /// Width of a figure over two columns of a journal, in points (184 mm).
@@ -68,7 +73,7 @@ pub fn write_figures(record: &RunRecord, directory: impl AsRef<Path>) -> Result<
 ///
 /// Files that cannot be written.
 pub fn write_training(record: &TrainingRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
-    drawn(&training::draw(record), stem.as_ref())
+    write_alone(&training::draw(record), stem.as_ref())
 }
 
 /// Draws what placement methods achieved as `STEM.svg` and `STEM.png`, whose folder is
@@ -84,11 +89,42 @@ pub fn write_comparison(
     note: &str,
     stem: impl AsRef<Path>,
 ) -> Result<Vec<PathBuf>> {
-    drawn(&comparison::draw(comparisons, note), stem.as_ref())
+    write_alone(&comparison::draw(comparisons, note), stem.as_ref())
 }
 
-/// One figure in a folder that may be missing.
-fn drawn(canvas: &Canvas, stem: &Path) -> Result<Vec<PathBuf>> {
+/// Draws layouts of one problem side by side as `STEM.svg` and `STEM.png`, and returns
+/// both: the prior, and what every layout detects, as Fig. 3 of the paper.
+///
+/// # Errors
+///
+/// A record whose arrays do not fit its grid, and files that cannot be written.
+pub fn write_layouts(record: &LayoutsRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    valid::check_layouts(record)?;
+    write_alone(&layouts::draw(record), stem.as_ref())
+}
+
+/// Draws lines in panels side by side as `STEM.svg` and `STEM.png`, and returns both:
+/// one thin line per run, and the median bold, as Figs. 4 to 6 of the paper.
+///
+/// # Errors
+///
+/// Files that cannot be written.
+pub fn write_chart(record: &ChartRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    write_alone(&chart::draw(record), stem.as_ref())
+}
+
+/// Draws what methods reach as `STEM.svg` and `STEM.png`, and returns both: R, `J_d`
+/// and λ₂ of every run and their medians, as Fig. 7 of the paper.
+///
+/// # Errors
+///
+/// Files that cannot be written.
+pub fn write_scores(record: &ScoresRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    write_alone(&scores::draw(record), stem.as_ref())
+}
+
+/// Writes a single figure into a folder that is made if it is missing.
+fn write_alone(canvas: &Canvas, stem: &Path) -> Result<Vec<PathBuf>> {
     if let Some(folder) = stem.parent() {
         std::fs::create_dir_all(folder)
             .map_err(|source| ReportError::Write { path: folder.to_owned(), source })?;

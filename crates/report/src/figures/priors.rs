@@ -40,7 +40,11 @@ pub(super) fn draw(record: &RunRecord, epochs: &[EpochRecord]) -> Canvas {
 
 /// From zero to a round number above the largest prior of the epochs.
 pub(super) fn prior_range(epochs: &[EpochRecord]) -> (f64, f64) {
-    let values = epochs.iter().flat_map(|epoch| epoch.prior.iter().copied()).chain([0.0]);
-    let (low, high) = ticks::range(values).unwrap_or((0.0, 1.0));
+    range_of(epochs.iter().flat_map(|epoch| epoch.prior.iter().copied()))
+}
+
+/// From zero to a round number above the largest value.
+pub(super) fn range_of(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = ticks::range(values.chain([0.0])).unwrap_or((0.0, 1.0));
     if high > 0.0 { ticks::round_range(Some((low, high)), 8, (0.0, 1.0)) } else { (0.0, 1.0) }
 }

@@ -2,14 +2,16 @@
 //! a corridor prior that turns, an eddy and a front, a sloping sea bed, vehicles
 //! that enter in the west and cannot all arrive at once.
 
+mod comparison;
 mod training;
 
+pub(crate) use comparison::{chart, layouts, scores};
 pub(crate) use training::training;
 
 use sonarfleet::grid::{CellId, Position, SurveillanceGrid};
 use sonarfleet::record::{
-    CurrentRecord, EpochMetrics, EpochRecord, LossTableMetrics, RouteRecord, RunRecord,
-    PlacementPart, SoundSpeedRecord, TrackPoint,
+    CurrentRecord, EpochMetrics, EpochRecord, LossTableMetrics, PlacementPart, RouteRecord,
+    RunRecord, SoundSpeedRecord, TrackPoint,
 };
 
 const EPOCH_H: f64 = 6.0;
@@ -164,15 +166,19 @@ fn epoch(
         placement_history: (0..40)
             .map(|k| (1 + 5000 * k, best * (1.0 - 0.45 * (-(k as f64) / 6.0).exp())))
             .collect(),
-        placement_parts: [("connected-greedy", 1, 0.86), ("policy", 64, 0.97), ("annealing", 8, 1.0)]
-            .map(|(by, layouts, share)| PlacementPart {
-                by: by.into(),
-                layouts,
-                detection_utility: share * best,
-                algebraic_connectivity: 0.96,
-                feasible: true,
-            })
-            .to_vec(),
+        placement_parts: [
+            ("connected-greedy", 1, 0.86),
+            ("policy", 64, 0.97),
+            ("annealing", 8, 1.0),
+        ]
+        .map(|(by, layouts, share)| PlacementPart {
+            by: by.into(),
+            layouts,
+            detection_utility: share * best,
+            algebraic_connectivity: 0.96,
+            feasible: true,
+        })
+        .to_vec(),
     };
     EpochRecord {
         epoch: index,

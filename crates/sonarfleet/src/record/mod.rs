@@ -2,6 +2,7 @@
 //! every figure and the report are drawn.
 
 mod checkpoint;
+mod comparison;
 mod directory;
 mod epoch_file;
 mod error;
@@ -10,11 +11,14 @@ mod training;
 mod write;
 
 pub use checkpoint::Checkpoint;
+pub use comparison::{
+    ChartRecord, LayoutRecord, LayoutsRecord, PanelRecord, ScoreRecord, ScoresRecord, SeriesRecord,
+};
 pub use directory::RunDirectory;
 pub use epoch_file::write_epoch;
 pub use error::RecordError;
 pub use provenance::{InputFile, Provenance};
-pub use training::{TrainingPoint, TrainingRecord, TrainingRun};
+pub use training::{TrainingPoint, TrainingRecord, TrainingRun, median};
 pub use write::write_run;
 
 use crate::grid::{CellId, Position, SurveillanceGrid};

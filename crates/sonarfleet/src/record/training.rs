@@ -70,8 +70,9 @@ impl TrainingRecord {
     }
 }
 
-/// The middle value, or the mean of the middle two; NaN of nothing.
-fn median(mut values: Vec<f64>) -> f64 {
+/// The middle value, or the mean of the middle two; NaN of nothing. What is not finite
+/// does not count.
+pub fn median(mut values: Vec<f64>) -> f64 {
     values.retain(|value| value.is_finite());
     values.sort_by(f64::total_cmp);
     match values.len() {

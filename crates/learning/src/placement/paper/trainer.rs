@@ -7,8 +7,8 @@ use crate::network::Mlp;
 use crate::ppo::{BadSettings, Losses, Trainer, TrainerState};
 use serde::{Deserialize, Serialize};
 use sonarfleet::grid::CellId;
-use sonarfleet::placement::PlacementProblem;
 use sonarfleet::placement::mdp::{ExchangeMdp, PlacementMdp, SequentialMdp, TerminalReward};
+use sonarfleet::placement::{PlacementProblem, SCORING_MULTIPLIER};
 use sonarfleet::sonar::objective::updated_connectivity_multiplier;
 
 /// Trains a policy of the paper on one problem.
@@ -48,6 +48,8 @@ pub struct PlacementUpdate {
     pub episodes: u64,
     /// Mean reward of the layouts of this rollout, under the multiplier of their time.
     pub mean_return: f64,
+    /// Mean reward R of them under [`SCORING_MULTIPLIER`], by which methods are compared.
+    pub score: f64,
     /// Mean `J_d` of them.
     pub detection_utility: f64,
     /// Mean λ₂ of them.
@@ -213,8 +215,8 @@ impl<M: PlacementMdp> PlacementTrainer<M> {
         let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / count;
         let connectivity = mean(&mut layouts().map(|layout| layout.algebraic_connectivity));
         let multiplier = self.multiplier;
+        let threshold = self.mdp().problem().connectivity_threshold();
         if count > 0.0 {
-            let threshold = self.mdp().problem().connectivity_threshold();
             let step = self.settings.multiplier_step;
             self.multiplier =
                 updated_connectivity_multiplier(multiplier, step, connectivity, threshold);
@@ -226,6 +228,7 @@ impl<M: PlacementMdp> PlacementTrainer<M> {
             steps: update.steps,
             episodes: self.episodes(),
             mean_return: update.mean_return() / self.settings.reward_scale,
+            score: mean(&mut layouts().map(|layout| layout.reward(threshold, SCORING_MULTIPLIER))),
             detection_utility: mean(&mut layouts().map(|layout| layout.detection_utility)),
             algebraic_connectivity: connectivity,
             feasible: mean(&mut layouts().map(|layout| f64::from(u8::from(layout.feasible)))),
