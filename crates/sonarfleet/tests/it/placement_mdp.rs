@@ -109,8 +109,12 @@ fn the_link_mask_leaves_cells_that_hear_the_placed_ones() {
             let degree = |cell: CellId| -> f64 {
                 placed.iter().chain(problem.fixed_sensors()).map(|&q| problem.link(cell, q)).sum()
             };
-            let free: Vec<CellId> =
-                problem.deployable().iter().copied().filter(|cell| !placed.contains(cell)).collect();
+            let free: Vec<CellId> = problem
+                .deployable()
+                .iter()
+                .copied()
+                .filter(|cell| !placed.contains(cell))
+                .collect();
             let best = free.iter().map(|&cell| degree(cell)).fold(0.0, f64::max);
             let least = 1.5_f64.min(0.8 * (placed.len() + 1) as f64).min(best);
             for cell in free {
