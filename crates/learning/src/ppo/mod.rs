@@ -14,6 +14,6 @@ mod trainer;
 pub use advantage::generalised_advantages;
 pub use environment::{Environment, Episode, Progress, Transition};
 pub use loss::Losses;
-pub(crate) use surrogate::clipped_surrogate;
 pub use settings::{BadSettings, PpoSettings};
+pub(crate) use surrogate::clipped_surrogate;
 pub use trainer::{Trainer, TrainerState, Update};

@@ -73,7 +73,9 @@ pub(super) fn gradient(
                 network.forward(&lesson.features, lesson.count, activations);
                 let choices = Distribution::new(&activations.logits[..lesson.count], 1.0);
                 let mut slopes = slopes(lesson, &choices, settings, &mut summary);
-                slopes.iter_mut().for_each(|slope| *slope *= share);
+                for slope in &mut slopes {
+                    *slope *= share;
+                }
                 let (features, count) = (&lesson.features, lesson.count);
                 network.backward(features, count, activations, &slopes, &mut gradient);
             }
