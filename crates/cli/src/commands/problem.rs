@@ -85,7 +85,7 @@ impl ProblemSource<'_> {
 }
 
 /// The problem of a scenario's epoch, and what the scenario says of solving it.
-pub(super) fn of_epoch(
+fn of_epoch(
     scenario: &Scenario,
     epoch: usize,
     cache: &CacheArgs,
