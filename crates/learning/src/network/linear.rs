@@ -1,6 +1,6 @@
 //! Fully connected layers.
 
-use super::matrix::{Factor, Matrix, MatrixMut, multiply, multiply_add};
+use super::matrix::{Factor, Matrix, MatrixMut, multiply};
 use super::orthogonal::orthogonal;
 use super::sparse::SparseRows;
 use super::vector::wide;
@@ -37,15 +37,12 @@ impl Linear {
     /// `y = x·W + b` for x [row, input] and y [row, output].
     pub fn forward(&self, weights: &[f32], x: &[f32], y: &mut [f32]) {
         let (w, bias) = weights.split_at(self.inputs * self.outputs);
-        let w = Factor::new(Matrix::new(w, self.outputs), x.len() / self.inputs);
+        let w = Factor::with_bias(Matrix::new(w, self.outputs), bias, x.len() / self.inputs);
         y.par_chunks_mut(ROWS_PER_TASK * self.outputs)
             .zip(x.par_chunks(ROWS_PER_TASK * self.inputs))
             .for_each(|(y, x)| {
-                for row in y.chunks_exact_mut(self.outputs) {
-                    row.copy_from_slice(bias);
-                }
                 let mut y = MatrixMut::new(y, self.outputs);
-                multiply_add(&mut y, &Matrix::new(x, self.inputs), &w);
+                multiply(&mut y, &Matrix::new(x, self.inputs), &w);
             });
     }
 

@@ -10,7 +10,7 @@
     reason = "only what is inlined into the dispatched function is compiled for wide vectors"
 )]
 
-use super::vector::{dot, wide};
+use super::vector::{add_scaled, dot, wide};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ const WIDTH: usize = 32;
 
 /// Rows up to which a product goes through the right side as it lies: packing it takes
 /// longer than a few rows' products.
-const FEW_ROWS: usize = 8;
+const FEW_ROWS: usize = 4;
 
 /// A matrix in a slice.
 #[derive(Debug, Clone, Copy)]
@@ -102,24 +102,38 @@ impl<'a> MatrixMut<'a> {
 #[derive(Debug)]
 pub(crate) struct Factor<'a> {
     matrix: Matrix<'a>,
-    /// [panel, row, column of the panel], filled up with zeros; empty where products
-    /// have few rows.
+    /// What products start from, added to each of their rows.
+    bias: &'a [f32],
+    /// [panel, row, column of the panel], the bias above the matrix's rows, filled up
+    /// with zeros; empty where products have few rows.
     panels: Vec<f32>,
 }
 
 impl<'a> Factor<'a> {
     /// A matrix prepared for products with so many rows at a time.
     pub(crate) fn new(matrix: Matrix<'a>, rows: usize) -> Self {
+        Self::with_bias(matrix, &[], rows)
+    }
+
+    /// A matrix prepared for products with so many rows at a time, to each of which the
+    /// bias is added.
+    pub(crate) fn with_bias(matrix: Matrix<'a>, bias: &'a [f32], rows: usize) -> Self {
         let mut panels = Vec::new();
         if rows > FEW_ROWS {
-            panels.resize(matrix.columns.div_ceil(WIDTH) * matrix.rows * WIDTH, 0.0);
-            panels
-                .par_chunks_exact_mut(matrix.rows * WIDTH)
-                .with_min_len(8)
-                .zip(0..matrix.columns.div_ceil(WIDTH))
-                .for_each(|(panel, index)| pack_panel(&matrix, index * WIDTH, panel));
+            let length = (matrix.rows + 1) * WIDTH;
+            panels.resize(matrix.columns.div_ceil(WIDTH) * length, 0.0);
+            panels.par_chunks_exact_mut(length).enumerate().with_min_len(8).for_each(
+                |(index, panel)| {
+                    let (first, rest) = panel.split_at_mut(WIDTH);
+                    let columns = index * WIDTH..bias.len().min((index + 1) * WIDTH);
+                    for (value, bias) in first.iter_mut().zip(bias.get(columns).unwrap_or(&[])) {
+                        *value = *bias;
+                    }
+                    pack_panel(&matrix, index * WIDTH, rest);
+                },
+            );
         }
-        Self { matrix, panels }
+        Self { matrix, bias, panels }
     }
 }
 
@@ -129,7 +143,12 @@ fn pack_panel(matrix: &Matrix<'_>, first: usize, panel: &mut [f32]) {
     let (rows, _) = panel.as_chunks_mut::<WIDTH>();
     if matrix.column_step == 1 {
         for (index, row) in rows.iter_mut().enumerate() {
-            row[..count].copy_from_slice(&matrix.row(index)[first..first + count]);
+            let values = &matrix.row(index)[first..first + count];
+            if let Some(values) = values.as_array() {
+                *row = *values;
+            } else {
+                row[..count].copy_from_slice(values);
+            }
         }
         return;
     }
@@ -145,17 +164,19 @@ fn pack_panel(matrix: &Matrix<'_>, first: usize, panel: &mut [f32]) {
     }
 }
 
-/// `out = left · right`.
+/// `out = left · right`, and the bias.
 pub(crate) fn multiply(out: &mut MatrixMut<'_>, left: &Matrix<'_>, right: &Factor<'_>) {
     if right.panels.is_empty() {
-        out.rows_mut().for_each(|row| row.fill(0.0));
+        for row in out.rows_mut() {
+            if right.bias.is_empty() { row.fill(0.0) } else { row.copy_from_slice(right.bias) }
+        }
         add_few_rows(out, left, &right.matrix);
     } else {
         Arch::new().dispatch(Product { out, left, right, add: false });
     }
 }
 
-/// `out += left · right`.
+/// `out += left · right`, for a right side without bias.
 pub(crate) fn multiply_add(out: &mut MatrixMut<'_>, left: &Matrix<'_>, right: &Factor<'_>) {
     if right.panels.is_empty() {
         add_few_rows(out, left, &right.matrix);
@@ -197,27 +218,36 @@ impl Product<'_, '_> {
         for (strip, first) in strips.chunks_exact_mut(inner).zip((0..).step_by(R)) {
             pack_strip(left, first, strip);
         }
-        for (panel, first) in right.panels.chunks_exact(inner * WIDTH).zip((0..).step_by(WIDTH)) {
+        for (panel, first) in
+            right.panels.chunks_exact((inner + 1) * WIDTH).zip((0..).step_by(WIDTH))
+        {
             let (panel, _) = S::as_simd_f32s(panel);
             let (panel, _) = panel.as_chunks::<V>();
+            let Some((bias, panel)) = panel.split_first() else { continue };
             let count = WIDTH.min(columns - first);
             let mut rows = out.values.chunks_mut(out.row_step).take(left.rows);
             for strip in strips.chunks_exact(inner) {
-                for (sums, row) in tile::<S, R, V>(simd, strip, panel).iter().zip(&mut rows) {
+                for (sums, row) in tile::<S, R, V>(simd, strip, bias, panel).iter().zip(&mut rows) {
                     let mut flat = [0.0; WIDTH];
                     let (vectors, _) = S::as_mut_simd_f32s(&mut flat);
                     vectors.copy_from_slice(sums);
                     let row = &mut row[first..first + count];
-                    if add {
-                        for (value, sum) in row.iter_mut().zip(&flat) {
-                            *value += sum;
-                        }
+                    if let Some(row) = row.as_mut_array::<WIDTH>() {
+                        put(row, &flat, add);
                     } else {
-                        row.copy_from_slice(&flat[..count]);
+                        put(row, &flat, add);
                     }
                 }
             }
         }
+    }
+}
+
+/// Adds values or puts them in their place; for whole arrays without a loop.
+#[inline(always)]
+fn put(row: &mut [f32], values: &[f32; WIDTH], add: bool) {
+    for (out, value) in row.iter_mut().zip(values) {
+        *out = if add { *out + value } else { *value };
     }
 }
 
@@ -239,14 +269,15 @@ fn pack_strip<const R: usize>(matrix: &Matrix<'_>, first: usize, strip: &mut [[f
     }
 }
 
-/// Sums of the products of a strip with a panel.
+/// Sums of the bias and the products of a strip with a panel.
 #[inline(always)]
 fn tile<S: Simd, const R: usize, const V: usize>(
     simd: S,
     strip: &[[f32; R]],
+    bias: &[S::f32s; V],
     panel: &[[S::f32s; V]],
 ) -> [[S::f32s; V]; R] {
-    let mut sums = [[simd.splat_f32s(0.0); V]; R];
+    let mut sums = [*bias; R];
     for (left, right) in strip.iter().zip(panel) {
         for (sums, left) in sums.iter_mut().zip(left) {
             let left = simd.splat_f32s(*left);
@@ -302,9 +333,7 @@ fn add_rows(sums: &mut [&mut [f32]], factors: &[&[f32]], first: usize, rows: &[&
         (sums, factors, rows) => {
             for (sum, factors) in sums.iter_mut().zip(factors) {
                 for (row, factor) in rows.iter().zip(&factors[first..]) {
-                    for (sum, value) in sum.iter_mut().zip(*row) {
-                        *sum += factor * value;
-                    }
+                    add_scaled(sum, *factor, row);
                 }
             }
         }
@@ -400,6 +429,20 @@ mod tests {
             let right = Factor::new(Matrix::new(&right, 40), rows);
             multiply(&mut MatrixMut::new(&mut out, 40), &Matrix::new(&left, 5), &right);
             assert!(out.iter().all(|value| (value - 10.0).abs() < 1e-5));
+        }
+    }
+
+    #[test]
+    fn a_bias_is_added_to_every_row() {
+        for (rows, columns) in [(3, 40), (20, 40), (20, 64), (20, 3)] {
+            let (left, right) = (vec![1.0; rows * 5], vec![2.0; 5 * columns]);
+            let bias: Vec<f32> = (0..columns).map(|column| column as f32).collect();
+            let mut out = vec![f32::NAN; rows * columns];
+            let right = Factor::with_bias(Matrix::new(&right, columns), &bias, rows);
+            multiply(&mut MatrixMut::new(&mut out, columns), &Matrix::new(&left, 5), &right);
+            for (index, value) in out.iter().enumerate() {
+                assert!((value - 10.0 - (index % columns) as f32).abs() < 1e-5);
+            }
         }
     }
 }
