@@ -417,8 +417,12 @@ mod tests {
     /// Single precision, in another order.
     const ROUNDING: f32 = 2e-3;
 
-    /// Small probabilities are left out.
-    const LEFT_OUT: f64 = 0.05;
+    /// Probabilities that are left out of the sparse tables are smaller.
+    const LEFT_OUT: f64 = 0.01;
+
+    /// The feature that is 0 for cells without a link: which of those are candidates is
+    /// arbitrary.
+    const LINKS: usize = 4;
 
     /// The same problem, its grid mirrored at the diagonal if asked for.
     fn problem(mirrored: bool) -> PlacementProblem {
@@ -482,6 +486,7 @@ mod tests {
                 let mut found: Vec<(usize, Vec<f32>)> = (0..observation.cells.len())
                     .map(|lane| (seen(observation.cells[lane] as usize), of(lane)))
                     .collect();
+                found.retain(|(_, features)| features[LINKS] > 0.0);
                 found.sort_by_key(|(cell, _)| *cell);
                 construction.place(seen(cell) as u32);
                 found
@@ -516,7 +521,8 @@ mod tests {
             let after = problem.evaluate(&layout);
             let gain = after.detection_utility - before.detection_utility;
             let found = f64::from(construction.gains[cell]);
-            assert!((found - gain).abs() < LEFT_OUT * gain, "{cell}: {found} {gain}");
+            let most = LEFT_OUT * problem.prior().total();
+            assert!(gain - found > -1e-4 && gain - found < most, "{cell}: {found} {gain}");
             let raised = f64::from(construction.sums.raised[cell][0]);
             if layout.len() > 2 {
                 // The estimate is a Rayleigh quotient: never much below λ₂.
