@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use sonarfleet::random::Stream;
 
 /// A fully connected layer y = x·W + b. Its weights lie in one slice: W
-/// [input, output], then b [output].
+/// [input, output], then b `[output]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Linear {
     /// Length of x.

@@ -12,7 +12,7 @@ use sonarfleet::random::Stream;
 ///
 /// (i, f, g, o) = x·W + h·U + b, c ← σ(f)·c + σ(i)·tanh(g), h ← σ(o)·tanh(c).
 ///
-/// Weights, in order: W [input, gate], b [gate], U [unit, gate]; the gates' units in
+/// Weights, in order: W [input, gate], b `[gate]`, U [unit, gate]; the gates' units in
 /// the order i, f, g, o. The state is h, then c.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lstm {
