@@ -3,18 +3,20 @@ MaskablePPO on one problem, in turns.
 
     cargo build --release -p sonarfleet-learning --examples
     pip install sb3-contrib torch
-    python scripts/compare_ppo.py target/release/examples/ppo_throughput INSTANCE.npz
+    python scripts/compare_ppo.py target/release/examples/ppo_throughput INSTANCE.npz [THREADS]
 
 Both run Table 1 of the paper: 16 environments x 256 steps, 10 epochs of minibatches of
 512, the same network (900 -> 256 -> 256, shared, -> 900 + 1; the parameter counts are
 compared), the same observations, masks, rewards and constants. SB3 builds separate
 networks by default, so the shared layers are given to it as features extractor. Its
 environment is one vectorised NumPy object, which spares it a Python call per
-environment and step. Each side uses all cores it is allowed. The first rollout of each
-turn is not counted.
+environment and step. Both use as many threads as are given, or as there are cores. The
+first rollout of each turn is not counted. Wall time is what counts on a machine that is
+idle, processor time (with one thread) on one that is not.
 """
 
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -30,7 +32,7 @@ from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 from stable_baselines3.common.vec_env import VecEnv
 
 ENVIRONMENTS, STEPS = 16, 256
-UPDATES, TURNS = 3, 5
+UPDATES, TURNS = 3, 3
 MULTIPLIER = 5.0
 
 
@@ -127,30 +129,42 @@ def peer(tables):
 
 def main():
     program, instance = sys.argv[1:3]
+    threads = int(sys.argv[3]) if len(sys.argv) > 3 else os.cpu_count()
+    torch.set_num_threads(threads)
+    environment = os.environ | {"RAYON_NUM_THREADS": str(threads)}
+
+    def run(*arguments):
+        command = [program, instance, *map(str, arguments)]
+        output = subprocess.run(command, check=True, capture_output=True, env=environment).stdout
+        return json.loads(output)
+
     with tempfile.TemporaryDirectory() as folder:
         dumped = Path(folder) / "tables.npz"
-        subprocess.run([program, instance, "1", dumped], check=True, stdout=subprocess.DEVNULL)
+        weights = run(1, dumped)["weights"]
         tables = dict(np.load(dumped))
     model = peer(tables)
-    rollout = ENVIRONMENTS * STEPS
-    ours, theirs = [], []
-    for turn in range(TURNS):
-        found = json.loads(subprocess.run(
-            [program, instance, str(UPDATES)], check=True, capture_output=True).stdout)
-        ours.append(found["steps_per_s"])
-        model.learn(rollout, reset_num_timesteps=False)
-        start = time.perf_counter()
-        model.learn(UPDATES * rollout, reset_num_timesteps=False)
-        theirs.append(UPDATES * rollout / (time.perf_counter() - start))
-        print(f"turn {turn + 1}: ours {ours[-1]:.0f} steps/s, MaskablePPO {theirs[-1]:.0f}", flush=True)
     parameters = sum(weight.numel() for weight in model.policy.parameters())
-    assert parameters == found["weights"], (parameters, found["weights"])
-    ratios = [a / b for a, b in zip(ours, theirs)]
-    print(f"{parameters} parameters on both sides, torch {torch.__version__} on "
-          f"{torch.get_num_threads()} threads")
-    print(f"median: ours {statistics.median(ours):.0f} steps/s, MaskablePPO "
-          f"{statistics.median(theirs):.0f} steps/s, ratio {statistics.median(ratios):.2f} "
-          f"({min(ratios):.2f} to {max(ratios):.2f})")
+    assert parameters == weights, (parameters, weights)
+    print(f"{parameters} parameters on both sides, {threads} threads, torch {torch.__version__}")
+    rollout = ENVIRONMENTS * STEPS
+    steps = UPDATES * rollout
+    turns = []
+    for turn in range(TURNS):
+        ours = run(UPDATES)
+        model.learn(rollout, reset_num_timesteps=False)
+        start, cpu_start = time.perf_counter(), time.process_time()
+        model.learn(steps, reset_num_timesteps=False)
+        theirs = (time.perf_counter() - start, time.process_time() - cpu_start)
+        turns.append([steps / ours["seconds"], steps / theirs[0],
+                      steps / ours["cpu_seconds"], steps / theirs[1]])
+        print("turn {}: ours {:.0f} steps/s, MaskablePPO {:.0f}; per CPU-second {:.0f}, {:.0f}"
+              .format(turn + 1, *turns[-1]), flush=True)
+    for name, first in (("second", 0), ("CPU-second", 2)):
+        ours, theirs = ([turn[first + side] for turn in turns] for side in (0, 1))
+        ratios = [a / b for a, b in zip(ours, theirs)]
+        print(f"median steps per {name}: ours {statistics.median(ours):.0f}, MaskablePPO "
+              f"{statistics.median(theirs):.0f}, ratio {statistics.median(ratios):.2f} "
+              f"({min(ratios):.2f} to {max(ratios):.2f})")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 //! Trains a policy of the paper on an instance and prints every update:
-//! `train_placement INSTANCE.npz sequential|exchange paper|ours SECONDS [SEED]`.
+//! `train_placement INSTANCE.npz sequential|exchange paper|ours|SETTINGS.json EPISODES [SEED]`.
 
 use sonarfleet::placement::{Budget, PlacementProblem, Solver, instance};
 use sonarfleet_learning::placement::paper::{PaperPpo, PaperSettings, Process};
@@ -7,13 +7,22 @@ use std::sync::Arc;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [path, process, preset, seconds, rest @ ..] = &arguments[..] else {
-        panic!("expected INSTANCE.npz sequential|exchange paper|ours SECONDS [SEED]");
+    let [path, process, preset, episodes, rest @ ..] = &arguments[..] else {
+        panic!(
+            "expected INSTANCE.npz sequential|exchange paper|ours|SETTINGS.json EPISODES [SEED]"
+        );
     };
     let problem =
         PlacementProblem::new(&instance::read(path).expect("an instance")).expect("valid");
     let process = if process == "exchange" { Process::Exchange } else { Process::Sequential };
-    let settings = if preset == "ours" { PaperSettings::ours() } else { PaperSettings::paper() };
+    let settings = match &preset[..] {
+        "paper" => PaperSettings::paper(),
+        "ours" => PaperSettings::ours(),
+        path => {
+            let text = std::fs::read_to_string(path).expect("a settings file");
+            serde_json::from_str(&text).expect("settings")
+        }
+    };
     let seed = rest.first().map_or(0, |seed| seed.parse().expect("a seed"));
     let method = PaperPpo::new(process, settings).expect("settings").observed(Arc::new(
         |update, elapsed| {
@@ -34,7 +43,7 @@ fn main() {
             );
         },
     ));
-    let budget = Budget::Seconds(seconds.parse().expect("seconds"));
+    let budget = Budget::Evaluations(episodes.parse().expect("a number of episodes"));
     let placement = method.solve(&problem, budget, seed);
     println!("{:?} after {} episodes", placement.evaluation, placement.evaluations);
 }

@@ -16,5 +16,7 @@ mod ticks;
 mod valid;
 
 pub use error::ReportError;
-pub use figures::{write_chart, write_figures, write_layouts, write_scores, write_training};
+pub use figures::{
+    write_chart, write_comparison, write_figures, write_layouts, write_scores, write_training,
+};
 pub use html::write_report;

@@ -6,7 +6,7 @@ mod reproduce;
 mod train;
 
 pub(crate) use bellhop::{BellhopArgs, ModelName};
-pub(crate) use bench::{BenchAcousticsArgs, BenchCommand};
+pub(crate) use bench::{BenchAcousticsArgs, BenchCommand, BenchPlacementArgs};
 pub(crate) use reproduce::{Figure, ReproduceArgs};
 pub(crate) use train::{PlacementPolicy, Preset, TrainCommand, TrainPlacementArgs};
 

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 pub(crate) fn place(args: &PlaceArgs, manner: Manner) -> Result<()> {
     let source = ProblemSource {
-        input: &args.input,
+        input: Some(&args.input),
         epoch: args.epoch,
         count: args.count,
         threshold: args.threshold,

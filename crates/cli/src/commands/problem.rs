@@ -11,8 +11,8 @@ use std::path::Path;
 
 /// Where a problem comes from.
 pub(super) struct ProblemSource<'a> {
-    /// Scenario or instance.
-    pub(super) input: &'a Path,
+    /// Scenario or instance; none for the embedded scenario.
+    pub(super) input: Option<&'a Path>,
     /// Epoch of a scenario.
     pub(super) epoch: usize,
     /// Vehicles, if not the input's own.
@@ -36,16 +36,17 @@ impl ProblemSource<'_> {
     /// The problem, and what its source says of solving it.
     pub(super) fn problem(&self, manner: Manner) -> Result<(PlacementProblem, Defaults)> {
         let (input, defaults) = self.input(manner)?;
-        let problem =
-            PlacementProblem::new(&input).with_context(|| format!("{}", self.input.display()))?;
+        let problem = PlacementProblem::new(&input).with_context(|| self.name())?;
         Ok((problem, defaults))
     }
 
-    /// What the problem is made of, and what its source says of solving it.
+    /// What the problem is made of.
     pub(super) fn input(&self, manner: Manner) -> Result<(PlacementInput, Defaults)> {
-        let instance = self.input.extension().is_some_and(|extension| extension == "npz");
-        let (mut input, defaults) =
-            if instance { self.of_instance()? } else { self.of_scenario(manner)? };
+        let instance = self.input.filter(|path| path.extension().is_some_and(|e| e == "npz"));
+        let (mut input, defaults) = match instance {
+            Some(path) => self.of_instance(path)?,
+            None => self.of_scenario(manner)?,
+        };
         if let Some(count) = self.count {
             input.vehicles = count;
         }
@@ -55,18 +56,23 @@ impl ProblemSource<'_> {
         Ok((input, defaults))
     }
 
-    fn of_instance(&self) -> Result<(PlacementInput, Defaults)> {
+    /// Where it comes from, in words.
+    pub(super) fn name(&self) -> String {
+        self.input.map_or_else(|| "the embedded scenario".into(), |path| path.display().to_string())
+    }
+
+    fn of_instance(&self, path: &Path) -> Result<(PlacementInput, Defaults)> {
         if self.loss.is_some() || self.communication_loss.is_some() {
-            bail!("tables go with a scenario; {} holds its own", self.input.display());
+            bail!("tables go with a scenario; {} holds its own", path.display());
         }
         let section = PlacementSection::default();
         let defaults =
             Defaults { method: section.method.parse()?, evaluations: section.evaluations, seed: 1 };
-        Ok((instance::read(self.input)?, defaults))
+        Ok((instance::read(path)?, defaults))
     }
 
     fn of_scenario(&self, manner: Manner) -> Result<(PlacementInput, Defaults)> {
-        let mut scenario = super::scenario(Some(self.input))?;
+        let mut scenario = super::scenario(self.input)?;
         super::check_epoch(&scenario, self.epoch)?;
         if let Some(path) = self.loss {
             scenario.epochs[self.epoch].loss_file = Some(path.to_owned());
@@ -79,7 +85,7 @@ impl ProblemSource<'_> {
 }
 
 /// The problem of a scenario's epoch, and what the scenario says of solving it.
-pub(super) fn of_epoch(
+fn of_epoch(
     scenario: &Scenario,
     epoch: usize,
     cache: &CacheArgs,

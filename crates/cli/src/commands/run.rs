@@ -8,7 +8,8 @@ use serde_json::json;
 use sonarfleet::mission::{Event, Mission, Theatre};
 use sonarfleet::navigation::{NamedRoute, write_routes};
 use sonarfleet::record::{
-    Checkpoint, EpochRecord, LossTableMetrics, PlacementPart, Provenance, RunDirectory, RunRecord, write_run,
+    Checkpoint, EpochRecord, LossTableMetrics, PlacementPart, Provenance, RunDirectory, RunRecord,
+    write_run,
 };
 use sonarfleet::scenario::Scenario;
 use sonarfleet::sonar::transmission_loss::LossCache;

@@ -6,5 +6,6 @@ mod bellhop;
 mod closed_loop;
 mod links;
 mod loss_tables;
+mod placement;
 mod program;
 mod reproduce;

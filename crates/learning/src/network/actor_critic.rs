@@ -95,7 +95,7 @@ impl Batch<'_> {
 pub struct Output {
     /// Unnormalised log-probabilities, [row, action], before masking.
     pub logits: Vec<f32>,
-    /// Estimated returns, [row].
+    /// Estimated returns, `[row]`.
     pub values: Vec<f32>,
 }
 

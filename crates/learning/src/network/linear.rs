@@ -1,15 +1,14 @@
 //! Fully connected layers.
 
-use super::matrix::{matrix, matrix_mut, multiply, multiply_add};
+use super::matrix::{Factor, Matrix, MatrixMut, multiply};
 use super::orthogonal::orthogonal;
 use super::sparse::SparseRows;
 use super::vector::wide;
-use ndarray::Axis;
 use rayon::prelude::*;
 use sonarfleet::random::Stream;
 
 /// A fully connected layer y = x·W + b. Its weights lie in one slice: W
-/// [input, output], then b [output].
+/// [input, output], then b `[output]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Linear {
     /// Length of x.
@@ -38,17 +37,12 @@ impl Linear {
     /// `y = x·W + b` for x [row, input] and y [row, output].
     pub fn forward(&self, weights: &[f32], x: &[f32], y: &mut [f32]) {
         let (w, bias) = weights.split_at(self.inputs * self.outputs);
+        let w = Factor::with_bias(Matrix::new(w, self.outputs), bias, x.len() / self.inputs);
         y.par_chunks_mut(ROWS_PER_TASK * self.outputs)
             .zip(x.par_chunks(ROWS_PER_TASK * self.inputs))
             .for_each(|(y, x)| {
-                for row in y.chunks_exact_mut(self.outputs) {
-                    row.copy_from_slice(bias);
-                }
-                multiply_add(
-                    &mut matrix_mut(y, self.outputs),
-                    &matrix(x, self.inputs),
-                    &matrix(w, self.outputs),
-                );
+                let mut y = MatrixMut::new(y, self.outputs);
+                multiply(&mut y, &Matrix::new(x, self.inputs), &w);
             });
     }
 
@@ -60,12 +54,14 @@ impl Linear {
 
     /// The gradient in x, [row, input], from that in y.
     pub fn backward_input(&self, weights: &[f32], y_gradient: &[f32], x_gradient: &mut [f32]) {
-        let w = matrix(&weights[..self.inputs * self.outputs], self.outputs);
+        let w = Matrix::new(&weights[..self.inputs * self.outputs], self.outputs);
+        let w = Factor::new(w.transposed(), y_gradient.len() / self.outputs);
         x_gradient
             .par_chunks_mut(ROWS_PER_TASK * self.inputs)
             .zip(y_gradient.par_chunks(ROWS_PER_TASK * self.outputs))
             .for_each(|(x, y)| {
-                multiply(&mut matrix_mut(x, self.inputs), &matrix(y, self.outputs), &w.t());
+                let mut x = MatrixMut::new(x, self.inputs);
+                multiply(&mut x, &Matrix::new(y, self.outputs), &w);
             });
     }
 
@@ -91,13 +87,12 @@ impl Linear {
 
     /// `gradient = xᵀ · y_gradient`, [input, output].
     pub(super) fn backward_matrix(&self, x: &[f32], y_gradient: &[f32], gradient: &mut [f32]) {
-        let x = matrix(x, self.inputs);
-        let y = matrix(y_gradient, self.outputs);
+        let inputs = Matrix::new(x, self.inputs).transposed();
+        // Rows of `inputs` are not contiguous: always packed.
+        let y = Factor::new(Matrix::new(y_gradient, self.outputs), usize::MAX);
         gradient.par_chunks_mut(ROWS_PER_TASK * self.outputs).enumerate().for_each(|(task, w)| {
-            let inputs = w.len() / self.outputs;
-            let first = task * ROWS_PER_TASK;
-            let part = x.slice_axis(Axis(1), (first..first + inputs).into());
-            multiply(&mut matrix_mut(w, self.outputs), &part.t(), &y);
+            let part = inputs.rows(task * ROWS_PER_TASK, w.len() / self.outputs);
+            multiply(&mut MatrixMut::new(w, self.outputs), &part, &y);
         });
     }
 }

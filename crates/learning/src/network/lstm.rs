@@ -2,7 +2,7 @@
 //! doi:10.1162/neco.1997.9.8.1735) over sequences in which episodes start anew.
 
 use super::linear::Linear;
-use super::matrix::{at_step, at_step_mut, matrix, matrix_mut, multiply, multiply_add};
+use super::matrix::{Factor, Matrix, MatrixMut, multiply, multiply_add};
 use super::orthogonal::orthogonal;
 use super::vector::{sigmoid, tanh, wide};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use sonarfleet::random::Stream;
 ///
 /// (i, f, g, o) = x·W + h·U + b, c ← σ(f)·c + σ(i)·tanh(g), h ← σ(o)·tanh(c).
 ///
-/// Weights, in order: W [input, gate], b [gate], U [unit, gate]; the gates' units in
+/// Weights, in order: W [input, gate], b `[gate]`, U [unit, gate]; the gates' units in
 /// the order i, f, g, o. The state is h, then c.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lstm {
@@ -20,6 +20,20 @@ pub struct Lstm {
     pub inputs: usize,
     /// Values in h.
     pub units: usize,
+}
+
+/// What the layer sees.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LstmInputs<'a> {
+    /// Steps of each sequence.
+    pub(super) steps: usize,
+    /// [sequence, step, input]
+    pub(super) x: &'a [f32],
+    /// Whether an episode starts at a step, so that the state is 0 before it,
+    /// [sequence, step].
+    pub(super) starts: &'a [bool],
+    /// State before the first step, [sequence, state].
+    pub(super) states: &'a [f32],
 }
 
 /// What a forward pass leaves, [sequence, step, …].
@@ -60,17 +74,14 @@ impl Lstm {
         orthogonal(recurrent, 4 * self.units, 1.0, random);
     }
 
-    /// h after each step, from x [sequence, step, input], `starts` [sequence, step] and
-    /// states [sequence, state].
+    /// h after each step.
     pub(super) fn forward(
         &self,
         weights: &[f32],
-        steps: usize,
-        x: &[f32],
-        starts: &[bool],
-        states: &[f32],
+        inputs: &LstmInputs<'_>,
         activations: &mut LstmActivations,
     ) {
+        let LstmInputs { steps, x, starts, states } = *inputs;
         let units = self.units;
         let rows = starts.len();
         let per_task = (rows / steps).div_ceil(TASKS);
@@ -84,6 +95,7 @@ impl Lstm {
         last.clear();
         last.extend_from_slice(states);
         self.input().forward(input, x, gates);
+        let recurrent = Factor::new(Matrix::new(recurrent, 4 * units), per_task);
 
         let chunk = per_task * steps;
         gates
@@ -107,9 +119,9 @@ impl Lstm {
                         c_before[row].copy_from_slice(&state[units..]);
                     }
                     multiply_add(
-                        &mut at_step_mut(gates, step, steps, 4 * units),
-                        &at_step(h_before, step, steps, units),
-                        &matrix(recurrent, 4 * units),
+                        &mut MatrixMut::at_step(gates, step, steps, 4 * units),
+                        &Matrix::at_step(h_before, step, steps, units),
+                        &recurrent,
                     );
                     for (row, state) in
                         (step..).step_by(steps).zip(state.chunks_exact_mut(2 * units))
@@ -130,17 +142,18 @@ impl Lstm {
     pub(super) fn backward(
         &self,
         weights: &[f32],
-        steps: usize,
-        x: &[f32],
-        starts: &[bool],
+        inputs: &LstmInputs<'_>,
         activations: &mut LstmActivations,
         hidden_gradient: &[f32],
         gradient: &mut [f32],
         x_gradient: &mut [f32],
     ) {
+        let LstmInputs { steps, x, starts, .. } = *inputs;
         let units = self.units;
         let per_task = (starts.len() / steps).div_ceil(TASKS);
         let (input, recurrent) = weights.split_at(self.input().weight_count());
+        let recurrent = Matrix::new(recurrent, 4 * units).transposed();
+        let recurrent = Factor::new(recurrent, per_task);
         let chunk = per_task * steps;
         activations
             .gates
@@ -164,9 +177,9 @@ impl Lstm {
                         wide(|| cell_backward(gates, c_before, c_tanh, slopes, h_later, c_later));
                     }
                     multiply(
-                        &mut matrix_mut(&mut h_later, units),
-                        &at_step(gates, step, steps, 4 * units),
-                        &matrix(recurrent, 4 * units).t(),
+                        &mut MatrixMut::new(&mut h_later, units),
+                        &Matrix::at_step(gates, step, steps, 4 * units),
+                        &recurrent,
                     );
                     let later =
                         h_later.chunks_exact_mut(units).zip(c_later.chunks_exact_mut(units));

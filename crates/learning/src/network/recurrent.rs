@@ -3,7 +3,7 @@
 use super::actor_critic::{ActorCritic, Batch, Output};
 use super::heads::Heads;
 use super::linear::{Linear, relu, relu_backward};
-use super::lstm::{Lstm, LstmActivations};
+use super::lstm::{Lstm, LstmActivations, LstmInputs};
 use serde::{Deserialize, Serialize};
 use sonarfleet::random::Stream;
 use std::f64::consts::SQRT_2;
@@ -76,8 +76,9 @@ impl Recurrent {
         embedding.resize(starts.len() * self.embedding, 0.0);
         self.embedding_layer().forward(&weights[..memory], observations, embedding);
         relu(embedding);
+        let inputs = LstmInputs { steps, x: embedding, starts, states };
         let lstm = &mut activations.memory;
-        self.memory().forward(&weights[memory..heads], steps, embedding, starts, states, lstm);
+        self.memory().forward(&weights[memory..heads], &inputs, lstm);
         self.output().forward(&weights[heads..], &lstm.hidden, output);
     }
 }
@@ -158,11 +159,11 @@ impl ActorCritic for Recurrent {
         let RecurrentActivations {
             observations,
             starts,
+            states,
             embedding,
             memory: lstm,
             hidden_gradient,
             embedding_gradient,
-            ..
         } = activations;
         hidden_gradient.resize(starts.len() * self.units, 0.0);
         embedding_gradient.resize(starts.len() * self.embedding, 0.0);
@@ -175,9 +176,7 @@ impl ActorCritic for Recurrent {
         );
         self.memory().backward(
             &weights[memory..heads],
-            batch.steps,
-            embedding,
-            starts,
+            &LstmInputs { steps: batch.steps, x: embedding, starts, states },
             lstm,
             hidden_gradient,
             &mut gradient[memory..heads],

@@ -1,6 +1,6 @@
 //! Rows that are mostly zeros, such as occupancy vectors.
 
-use super::vector::{add_scaled, wide};
+use super::vector::{add_rows_scaled, wide};
 use rayon::prelude::*;
 
 /// The non-zero values of a batch of rows.
@@ -52,10 +52,7 @@ impl SparseRows {
             wide(|| {
                 for (out, row) in out.chunks_exact_mut(columns).zip(task * ROWS_PER_TASK..) {
                     out.copy_from_slice(bias);
-                    for &(column, value) in self.row(row) {
-                        let first = column as usize * columns;
-                        add_scaled(out, value, &matrix[first..first + columns]);
-                    }
+                    add_rows_scaled(out, self.row(row), matrix);
                 }
             });
         });
@@ -68,10 +65,7 @@ impl SparseRows {
             wide(|| {
                 for (out, row) in out.chunks_exact_mut(columns).zip(task * ROWS_PER_TASK..) {
                     out.fill(0.0);
-                    for &(column, value) in transposed.row(row) {
-                        let first = column as usize * columns;
-                        add_scaled(out, value, &right[first..first + columns]);
-                    }
+                    add_rows_scaled(out, transposed.row(row), right);
                 }
             });
         });

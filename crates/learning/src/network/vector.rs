@@ -85,6 +85,23 @@ pub(crate) fn add_scaled(sum: &mut [f32], factor: f32, values: &[f32]) {
     }
 }
 
+/// `sum += Σ factor · row` over some rows of a matrix, [row, column], four at a time.
+#[inline(always)]
+pub(crate) fn add_rows_scaled(sum: &mut [f32], entries: &[(u32, f32)], matrix: &[f32]) {
+    let count = sum.len();
+    let row = |index: u32| &matrix[index as usize * count..][..count];
+    let (fours, rest) = entries.as_chunks::<4>();
+    for &[(i, a), (j, b), (k, c), (l, d)] in fours {
+        let (x, y, z, w) = (row(i), row(j), row(k), row(l));
+        for k in 0..count {
+            sum[k] += (a * x[k] + b * y[k]) + (c * z[k] + d * w[k]);
+        }
+    }
+    for &(index, factor) in rest {
+        add_scaled(sum, factor, row(index));
+    }
+}
+
 /// Folds lanes of two slices of one length, in an order that depends on the length
 /// alone.
 #[inline(always)]

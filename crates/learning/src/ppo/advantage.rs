@@ -54,7 +54,7 @@ mod tests {
                 lambda,
                 &mut advantages,
             );
-            for t in 0..length {
+            for (t, &advantage) in advantages.iter().enumerate() {
                 let mut expected = 0.0;
                 for l in t..length {
                     let delta = f64::from(rewards[l])
@@ -65,7 +65,7 @@ mod tests {
                         break;
                     }
                 }
-                assert!((f64::from(advantages[t]) - expected).abs() < ROUNDING);
+                assert!((f64::from(advantage) - expected).abs() < ROUNDING);
             }
         }
     }

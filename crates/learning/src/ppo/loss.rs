@@ -5,7 +5,7 @@
 )]
 
 use super::settings::PpoSettings;
-use crate::network::vector::{exp, largest, wide};
+use crate::network::vector::{self, dot, exp, largest, wide};
 use crate::network::{Output, apply_mask};
 use rayon::prelude::*;
 
@@ -103,6 +103,7 @@ pub(super) fn loss(
         .enumerate()
         .map(|(task, ((logits, values), mask))| {
             let mut sum = Losses::default();
+            let mut powers = vec![0.0; actions];
             let masked = logits.chunks_exact_mut(actions).zip(mask.chunks_exact(actions));
             for (((logits, mask), value), row) in masked.zip(values).zip(task * ROWS_PER_TASK..) {
                 let action = Action {
@@ -111,7 +112,10 @@ pub(super) fn loss(
                     advantage: targets.advantages[row],
                 };
                 let clip_coef = settings.clip_coef;
-                wide(|| policy(clip_coef, ent_coef, share, &action, mask, logits, &mut sum));
+                wide(|| {
+                    apply_mask(logits, mask);
+                    policy([clip_coef, ent_coef, share], &action, logits, &mut powers, &mut sum);
+                });
                 let old = settings.clip_vloss.then_some(targets.values[row]);
                 let (half_square, slope) =
                     value_error(*value, targets.returns[row], old, clip_coef);
@@ -132,24 +136,25 @@ struct Action {
 }
 
 /// One row of Equation (12) and of the entropy; logits become the gradient in them,
-/// times `share`.
+/// times `share`. `powers` is room for their exponentials.
 #[inline(always)]
 fn policy(
-    clip_coef: f32,
-    ent_coef: f32,
-    share: f32,
+    [clip_coef, ent_coef, share]: [f32; 3],
     action: &Action,
-    mask: &[bool],
     logits: &mut [f32],
+    powers: &mut [f32],
     sum: &mut Losses,
 ) {
-    apply_mask(logits, mask);
     let most = largest(logits);
-    let (total, weighted) = totals(logits, most);
+    for (power, logit) in powers.iter_mut().zip(logits.iter_mut()) {
+        *logit -= most;
+        *power = exp(*logit);
+    }
+    let total = vector::sum(powers);
     let log_total = total.ln();
-    // H = −Σ p ln p, with ln p = z − max − ln Σ.
-    let entropy = log_total - weighted / total;
-    let log_ratio = logits[action.index] - most - log_total - action.log_probability;
+    // H = −Σ p ln p, with ln p = z − ln Σ; a masked z times 0 is 0.
+    let entropy = log_total - dot(powers, logits) / total;
+    let log_ratio = logits[action.index] - log_total - action.log_probability;
     let ratio = log_ratio.exp();
     let clipped = ratio.clamp(1.0 - clip_coef, 1.0 + clip_coef);
     let (plain, bounded) = (ratio * action.advantage, clipped * action.advantage);
@@ -159,11 +164,10 @@ fn policy(
 
     // ∂(−ln p(a))/∂z = p − 1(a); ∂(−H)/∂z = p (ln p + H).
     let entropy_slope = ent_coef * share;
-    let offset = entropy_slope * (entropy - log_total - most) - slope;
+    let offset = entropy_slope * (entropy - log_total) - slope;
     let normalise = 1.0 / total;
-    for logit in logits.iter_mut() {
-        let probability = exp(*logit - most) * normalise;
-        *logit = probability * (entropy_slope * *logit + offset);
+    for (logit, power) in logits.iter_mut().zip(powers.iter()) {
+        *logit = power * normalise * (entropy_slope * *logit + offset);
     }
     logits[action.index] += slope;
 
@@ -171,28 +175,6 @@ fn policy(
     sum.entropy += f64::from(entropy);
     sum.approx_kl += f64::from(ratio) - 1.0 - f64::from(log_ratio);
     sum.clip_fraction += f64::from(u8::from((ratio - 1.0).abs() > clip_coef));
-}
-
-/// Σ eᶻ and Σ z·eᶻ of logits less their largest, in parallel lanes.
-#[inline(always)]
-fn totals(logits: &[f32], most: f32) -> (f32, f32) {
-    const LANES: usize = 16;
-    let (mut total, mut weighted) = ([0.0; LANES], [0.0; LANES]);
-    let (chunks, rest) = logits.as_chunks::<LANES>();
-    for chunk in chunks {
-        for lane in 0..LANES {
-            let z = chunk[lane] - most;
-            let weight = exp(z);
-            total[lane] += weight;
-            weighted[lane] += weight * z;
-        }
-    }
-    for (lane, logit) in rest.iter().enumerate() {
-        let weight = exp(logit - most);
-        total[lane] += weight;
-        weighted[lane] += weight * (logit - most);
-    }
-    (total.iter().sum(), weighted.iter().sum())
 }
 
 /// Half the squared error of a value and its slope; with an old value, of the worse of

@@ -4,7 +4,7 @@ use super::environment::{Environment, Episode};
 use super::loss::{Losses, Targets, loss};
 use super::rollout::{Player, Trajectory, minibatch, play};
 use super::settings::{BadSettings, PpoSettings};
-use crate::network::{ActorCritic, Adam, Output, clip_gradient};
+use crate::network::{ActorCritic, Adam, Output};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use sonarfleet::random::{Stream, stream};
@@ -220,8 +220,13 @@ impl<E: Environment, N: ActorCritic> Trainer<E, N> {
         network.forward(&state.weights, &batch, activations, output);
         let mut losses = loss(settings, ent_coef, targets, output);
         network.backward(&state.weights, &batch, activations, output, gradient);
-        losses.gradient_norm = f64::from(clip_gradient(gradient, settings.max_grad_norm));
-        state.adam.step(&mut state.weights, gradient, learning_rate);
+        let norm = state.adam.step_clipped(
+            &mut state.weights,
+            gradient,
+            settings.max_grad_norm,
+            learning_rate,
+        );
+        losses.gradient_norm = f64::from(norm);
         losses
     }
 }

@@ -1,6 +1,7 @@
 //! The tests of the crate as a whole.
 
-mod onnx;
 mod ocean;
+mod onnx;
 mod paper;
 mod ppo;
+mod transferable;

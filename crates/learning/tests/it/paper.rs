@@ -208,7 +208,7 @@ fn both_processes_solve() {
         assert_eq!(placement.method, name);
         assert!(placement.evaluation.feasible);
         assert!(placement.history.is_sorted_by(|a, b| a.0 <= b.0 && a.1 < b.1));
-        let log = log.lock().unwrap();
+        let log = log.lock().unwrap().clone();
         assert_eq!(log.last().unwrap().episodes + 1, placement.evaluations);
         assert!(placement.evaluations > 1500);
         let (first, last) = (&log[0], &log[log.len() - 1]);

@@ -3,7 +3,7 @@
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 use sonarfleet::random::Stream;
-use sonarfleet_learning::network::{ActorCritic, Mlp, Output, Recurrent};
+use sonarfleet_learning::network::{ActorCritic, Mlp, MlpActivations, Output, Recurrent};
 use sonarfleet_learning::ppo::{Environment, PpoSettings, Progress, Trainer, Transition};
 
 /// Shows one of two cues, then nothing for some steps, and rewards the action that has
@@ -91,11 +91,8 @@ fn a_network_with_memory_recalls_what_one_without_cannot() {
     let settings = PpoSettings { sequence_length: 32, ..recall_settings() };
     let with = recalled(recurrent, settings, 40);
     assert!(with > 0.95, "with memory {with}");
-    let without = recalled(
-        Mlp { inputs: 3, hidden: vec![16, 16], actions: 3 },
-        recall_settings(),
-        40,
-    );
+    let without =
+        recalled(Mlp { inputs: 3, hidden: vec![16, 16], actions: 3 }, recall_settings(), 40);
     assert!((without - 0.5).abs() < 0.15, "without memory {without}");
 }
 
@@ -182,7 +179,7 @@ fn returns_go_on_beyond_time_limits_and_not_beyond_ends() {
         let mut output = Output::default();
         let network = trainer.network();
         let weights = &trainer.state().weights;
-        network.step(weights, &[1.0], &mut [], &mut Default::default(), &mut output);
+        network.step(weights, &[1.0], &mut [], &mut MlpActivations::default(), &mut output);
         output.values[0]
     };
     let (cut_off, ended) = (value(true), value(false));

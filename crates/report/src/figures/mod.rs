@@ -1,6 +1,7 @@
 //! The figures of a run, each as SVG and PNG.
 
 mod chart;
+mod comparison;
 mod layouts;
 mod map;
 mod placement;
@@ -15,6 +16,7 @@ use crate::error::written;
 use crate::error::{ReportError, Result};
 use crate::plot::REMARK;
 use crate::{ticks, valid};
+use sonarfleet::placement::comparison::Comparison;
 use sonarfleet::record::{
     ChartRecord, EpochRecord, LayoutsRecord, RunRecord, ScoresRecord, TrainingRecord,
 };
@@ -72,6 +74,22 @@ pub fn write_figures(record: &RunRecord, directory: impl AsRef<Path>) -> Result<
 /// Files that cannot be written.
 pub fn write_training(record: &TrainingRecord, stem: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
     write_alone(&training::draw(record), stem.as_ref())
+}
+
+/// Draws what placement methods achieved as `STEM.svg` and `STEM.png`, whose folder is
+/// made if it is missing, and returns both: a panel per problem with `J_d` of every
+/// trial, filled where it is feasible, each method's median, the best layout found and
+/// the upper bound. The note stands at the foot.
+///
+/// # Errors
+///
+/// Files that cannot be written.
+pub fn write_comparison(
+    comparisons: &[Comparison],
+    note: &str,
+    stem: impl AsRef<Path>,
+) -> Result<Vec<PathBuf>> {
+    write_alone(&comparison::draw(comparisons, note), stem.as_ref())
 }
 
 /// Draws layouts of one problem side by side as `STEM.svg` and `STEM.png`, and returns

@@ -3,6 +3,7 @@
 mod comparison;
 mod figures;
 mod report;
+mod reproduction;
 #[path = "../sample/mod.rs"]
 mod sample;
 mod training;

@@ -91,6 +91,18 @@ fn current(p: Position, time_h: f64) -> [f64; 2] {
     [-swirl * dy + 0.05 * phase.cos() + 0.03, swirl * dx - 0.05 * phase.sin()]
 }
 
+fn placement_parts(best: f64) -> Vec<PlacementPart> {
+    [("connected-greedy", 1, 0.86), ("policy", 64, 0.97), ("annealing", 8, 1.0)]
+        .map(|(by, layouts, share)| PlacementPart {
+            by: by.into(),
+            layouts,
+            detection_utility: share * best,
+            algebraic_connectivity: 0.96,
+            feasible: true,
+        })
+        .to_vec()
+}
+
 fn epoch(
     index: usize,
     grid: SurveillanceGrid,
@@ -166,19 +178,7 @@ fn epoch(
         placement_history: (0..40)
             .map(|k| (1 + 5000 * k, best * (1.0 - 0.45 * (-(k as f64) / 6.0).exp())))
             .collect(),
-        placement_parts: [
-            ("connected-greedy", 1, 0.86),
-            ("policy", 64, 0.97),
-            ("annealing", 8, 1.0),
-        ]
-        .map(|(by, layouts, share)| PlacementPart {
-            by: by.into(),
-            layouts,
-            detection_utility: share * best,
-            algebraic_connectivity: 0.96,
-            feasible: true,
-        })
-        .to_vec(),
+        placement_parts: placement_parts(best),
     };
     EpochRecord {
         epoch: index,

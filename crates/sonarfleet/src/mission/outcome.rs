@@ -6,9 +6,7 @@ use crate::grid::{CellId, Position};
 use crate::navigation::{Route, TravelTimes};
 use crate::placement::random::RandomSearch;
 use crate::placement::{Budget, Contribution, Placement, Solver};
-use crate::record::{
-    EpochMetrics, EpochRecord, PlacementPart, RouteRecord, RunRecord, TrackPoint,
-};
+use crate::record::{EpochMetrics, EpochRecord, PlacementPart, RouteRecord, RunRecord, TrackPoint};
 
 /// What an epoch decided and what came of it.
 pub(super) struct Outcome {

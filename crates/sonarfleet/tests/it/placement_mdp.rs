@@ -57,7 +57,7 @@ fn the_sequential_process_places_every_vehicle_in_a_cell_of_its_own() {
             mdp.observation(state, &mut observation);
             for (cell, (&occupied, &allowed)) in observation.iter().zip(mask).enumerate() {
                 let placed = mdp.layout(state).contains(&CellId(cell));
-                assert_eq!(occupied, f32::from(u8::from(placed)));
+                assert_eq!(occupied.to_bits(), f32::from(u8::from(placed)).to_bits());
                 assert_eq!(allowed, !placed && problem.deployable().contains(&CellId(cell)));
             }
         });
@@ -74,7 +74,9 @@ fn the_exchange_process_lifts_and_drops() {
         play(&mdp, index, |state, mask| {
             let mut observation = vec![9.0; 36];
             mdp.observation(state, &mut observation);
-            let count = |value: f32| observation.iter().filter(|&&found| found == value).count();
+            let count = |value: f32| {
+                observation.iter().filter(|found| found.to_bits() == value.to_bits()).count()
+            };
             let lifting = decision % 2 == 0;
             assert_eq!((count(1.0), count(-1.0)), if lifting { (6, 0) } else { (5, 1) });
             let allowed = mask.iter().filter(|&&allowed| allowed).count();
@@ -109,8 +111,12 @@ fn the_link_mask_leaves_cells_that_hear_the_placed_ones() {
             let degree = |cell: CellId| -> f64 {
                 placed.iter().chain(problem.fixed_sensors()).map(|&q| problem.link(cell, q)).sum()
             };
-            let free: Vec<CellId> =
-                problem.deployable().iter().copied().filter(|cell| !placed.contains(cell)).collect();
+            let free: Vec<CellId> = problem
+                .deployable()
+                .iter()
+                .copied()
+                .filter(|cell| !placed.contains(cell))
+                .collect();
             let best = free.iter().map(|&cell| degree(cell)).fold(0.0, f64::max);
             let least = 1.5_f64.min(0.8 * (placed.len() + 1) as f64).min(best);
             for cell in free {

@@ -3,6 +3,7 @@
 mod acoustics;
 mod differences;
 mod effort;
+mod placement;
 mod slices;
 
 use super::Manner;
@@ -12,5 +13,6 @@ use anyhow::Result;
 pub(crate) fn bench(command: &BenchCommand, manner: Manner) -> Result<()> {
     match command {
         BenchCommand::Acoustics(args) => acoustics::bench(args, manner),
+        BenchCommand::Placement(args) => placement::bench(args, manner),
     }
 }

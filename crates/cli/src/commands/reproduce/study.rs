@@ -4,8 +4,8 @@
 use super::score::Score;
 use super::training::{Course, Trained};
 use crate::args::ReproduceArgs;
-use crate::commands::problem::{ProblemSource, of_epoch};
-use crate::commands::{Manner, methods, scenario};
+use crate::commands::problem::ProblemSource;
+use crate::commands::{Manner, methods};
 use crate::progress::Progress;
 use anyhow::{Context, Result};
 use sonarfleet::grid::CellId;
@@ -78,25 +78,20 @@ pub(super) struct Study {
 
 impl Study {
     pub(super) fn new(args: &ReproduceArgs, manner: Manner) -> Result<Self> {
-        let (name, input) = match &args.input {
-            Some(path) => {
-                let source = ProblemSource {
-                    input: path,
-                    epoch: 0,
-                    count: None,
-                    threshold: None,
-                    loss: None,
-                    communication_loss: None,
-                    cache: &args.cache,
-                };
-                let name = path.file_stem().unwrap_or(path.as_os_str());
-                (name.to_string_lossy().into_owned(), source.input(manner)?.0)
-            }
-            None => {
-                let (input, _) = of_epoch(&scenario(None)?, 0, &args.cache, manner)?;
-                ("Embedded scenario, epoch 0".into(), input)
-            }
+        let source = ProblemSource {
+            input: args.input.as_deref(),
+            epoch: 0,
+            count: None,
+            threshold: None,
+            loss: None,
+            communication_loss: None,
+            cache: &args.cache,
         };
+        let name = args.input.as_ref().map_or_else(
+            || "Embedded scenario, epoch 0".to_owned(),
+            |path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        );
+        let (input, _) = source.input(manner)?;
         let problem = PlacementProblem::new(&input).with_context(|| name.clone())?;
         let quiet = !manner.talkative();
         let (seeds, seconds) = (args.seeds, args.seconds);

@@ -30,7 +30,7 @@ struct Kept<S> {
 pub(super) fn train(args: &TrainPlacementArgs, process: Process, manner: Manner) -> Result<()> {
     let input = args.input.as_deref().context("name a scenario or an instance to train on")?;
     let source = ProblemSource {
-        input,
+        input: Some(input),
         epoch: args.epoch,
         count: args.count,
         threshold: None,

@@ -30,7 +30,7 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
         return finish(args, &training, None, manner);
     };
     let source = ProblemSource {
-        input: path,
+        input: Some(path),
         epoch: args.epoch,
         count: args.count,
         threshold: None,
@@ -40,17 +40,16 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
     };
     let (problem, _) = source.problem(manner)?;
     let practice = |_| problem.clone();
-    let training = match kept {
-        Some(kept) => kept,
-        None => {
-            let network = match &args.from {
-                Some(from) => Network::load(from)?,
-                None => TransferablePolicy::shipped().network,
-            };
-            let updates = args.updates.unwrap_or(TrainingSettings::fine_tuning(0).updates);
-            let settings = TrainingSettings { updates, ..TrainingSettings::fine_tuning(args.seed) };
-            Training::improving(network, settings)
-        }
+    let training = if let Some(kept) = kept {
+        kept
+    } else {
+        let network = match &args.from {
+            Some(from) => Network::load(from)?,
+            None => TransferablePolicy::shipped().network,
+        };
+        let defaults = TrainingSettings::fine_tuning(args.seed);
+        let updates = args.updates.unwrap_or(defaults.updates);
+        Training::improving(network, TrainingSettings { updates, ..defaults })
     };
     let training = run(args, training, &practice, 1.0, manner)?;
     finish(args, &training, Some(&problem), manner)

@@ -102,11 +102,6 @@ impl<'l> Construction<'l> {
         self.placed.len() == self.landscape.stations()
     }
 
-    /// Whether a vehicle may be placed in a cell.
-    pub(super) fn is_free(&self, cell: u32) -> bool {
-        self.free[cell as usize]
-    }
-
     /// Places a vehicle.
     pub(super) fn place(&mut self, cell: u32) {
         debug_assert!(self.free[cell as usize], "one vehicle per cell");
@@ -258,15 +253,15 @@ impl<'l> Construction<'l> {
         let expected: f32 = landscape.residual.iter().sum();
         let shared = [
             k / n,
-            bounded(second / threshold),
-            bounded(second * whole),
-            bounded(third * whole),
+            second / threshold,
+            second * whole,
+            third * whole,
             self.utility * reciprocal(expected),
             best_gain * per_first,
-            if k > 0.0 { bounded(smallest / threshold) } else { 0.0 },
-            bounded((n / 40.0).ln()),
-            bounded(n * landscape.best_first_gain * reciprocal(expected) / 4.0),
-            bounded(landscape.best_reach.ln_1p() / 2.0),
+            if k > 0.0 { smallest / threshold } else { 0.0 },
+            (n / 40.0).ln(),
+            n * landscape.best_first_gain * reciprocal(expected) / 4.0,
+            landscape.best_reach.ln_1p() / 2.0,
         ];
         let centre = self.centre();
         for (lane, &cell) in observation.cells.iter().enumerate() {
@@ -286,21 +281,21 @@ impl<'l> Construction<'l> {
                 gain * reciprocal(first_gain),
                 degree.ln_1p(),
                 (-degree).exp(),
-                bounded(raised / threshold),
-                bounded(raised * per_step),
-                (-raised * per_step).exp(),
-                bounded(k * (raised - second) / threshold),
-                bounded(raised_third / threshold),
-                bounded(raised_third * per_step),
-                (-raised_third * per_step).exp(),
-                bounded(k * (raised_third - third) / threshold),
-                bounded(position),
-                bounded(position_third),
+                raised / threshold,
+                raised * per_step,
+                (-raised * per_step).min(0.0).exp(),
+                k * (raised - second) / threshold,
+                raised_third / threshold,
+                raised_third * per_step,
+                (-raised_third * per_step).min(0.0).exp(),
+                k * (raised_third - third) / threshold,
+                position,
+                position_third,
                 self.sums.values[at][4],
-                bounded(distance),
-                bounded(relative),
+                distance,
+                relative,
                 near_mean * per_gain,
-                (near_sum * per_gain).ln_1p() / 3.0,
+                (near_sum * per_gain).max(0.0).ln_1p() / 3.0,
                 landscape.potential[at],
                 landscape.reach[at],
                 around,
@@ -308,7 +303,7 @@ impl<'l> Construction<'l> {
                 self.residual[at] / landscape.largest_prior,
             ];
             for (row, value) in observation.features.iter_mut().zip(own.iter().chain(&shared)) {
-                row[lane] = *value;
+                row[lane] = bounded(*value);
             }
         }
         let count = observation.cells.len();
@@ -382,8 +377,9 @@ impl Centre {
     }
 }
 
+/// Within the limits; what is not a number, 0 divided by 0, is 0.
 fn bounded(value: f32) -> f32 {
-    value.clamp(-LIMIT, LIMIT)
+    if value.is_nan() { 0.0 } else { value.clamp(-LIMIT, LIMIT) }
 }
 
 /// 1/x, or 0 where there is nothing to divide by.
@@ -400,5 +396,140 @@ fn keep_largest(cells: &mut Vec<u32>, count: usize, value: impl Fn(u32) -> f32) 
         }
         cells.clear();
         cells.extend(keyed[..count].iter().map(|&(_, cell)| cell));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::Rng;
+    use sonarfleet::grid::SurveillanceGrid;
+    use sonarfleet::placement::{PlacementInput, PlacementProblem};
+    use sonarfleet::random::stream;
+    use sonarfleet::sonar::detection::{DetectionModel, FalseAlarmProbability, PassiveSonar};
+    use sonarfleet::sonar::link::{LinkModel, Modem};
+    use sonarfleet::sonar::noise::NoiseLevel;
+    use sonarfleet::sonar::prior::TargetPrior;
+
+    const SIDE: usize = 12;
+    const CELLS: usize = SIDE * SIDE;
+
+    /// Single precision, in another order.
+    const ROUNDING: f32 = 2e-3;
+
+    /// Probabilities that are left out of the sparse tables are smaller.
+    const LEFT_OUT: f64 = 0.01;
+
+    /// The feature that is 0 for cells without a link: which of those are candidates is
+    /// arbitrary.
+    const LINKS: usize = 4;
+
+    /// The same problem, its grid mirrored at the diagonal if asked for.
+    fn problem(mirrored: bool) -> PlacementProblem {
+        let seen = |cell: usize| if mirrored { mirror(cell) } else { cell };
+        let mut random = stream(11, "test/ocean", 0);
+        let roughness: Vec<f64> = (0..CELLS * CELLS).map(|_| random.random()).collect();
+        let prior: Vec<f64> = (0..CELLS).map(|_| random.random()).collect();
+        let loss = |p: usize, q: usize| {
+            let apart = |a: usize, b: usize| (a as f64 - b as f64).powi(2);
+            let cells = (apart(p % SIDE, q % SIDE) + apart(p / SIDE, q / SIDE)).sqrt();
+            (55.0 + 5.0 * cells + 3.0 * roughness[p * CELLS + q]) as f32
+        };
+        let losses_db =
+            (0..CELLS * CELLS).map(|k| loss(seen(k / CELLS), seen(k % CELLS))).collect();
+        PlacementProblem::new(&PlacementInput {
+            grid: SurveillanceGrid {
+                columns: SIDE,
+                rows: SIDE,
+                cell_width_m: 1000.0,
+                cell_height_m: 1000.0,
+            },
+            prior: TargetPrior::new((0..CELLS).map(|cell| prior[seen(cell)]).collect()).unwrap(),
+            detection_loss_db: losses_db,
+            communication_loss_db: None,
+            sonar: PassiveSonar {
+                source_level_db: 130.0,
+                noise_level_db: NoiseLevel::Uniform(65.0),
+                directivity_index_db: 0.0,
+                detection_threshold_db: 0.0,
+                model: DetectionModel::MeanShift(FalseAlarmProbability::new(1e-3).unwrap()),
+            },
+            modem: Modem {
+                source_level_db: 138.0,
+                noise_level_db: NoiseLevel::Uniform(65.0),
+                model: LinkModel::CoherentBpsk { packet_bits: 256 },
+            },
+            vehicles: 10,
+            connectivity_threshold: 0.9,
+            deployable: None,
+            fixed_sensors: vec![CellId(seen(40))],
+        })
+        .unwrap()
+    }
+
+    fn mirror(cell: usize) -> usize {
+        (cell % SIDE) * SIDE + cell / SIDE
+    }
+
+    /// Columns of features by cell, after each vehicle of a layout.
+    fn observed(mirrored: bool, layout: &[usize]) -> Vec<Vec<(usize, Vec<f32>)>> {
+        let problem = problem(mirrored);
+        let landscape = Landscape::new(&problem);
+        let mut construction = Construction::new(&landscape, 0.9);
+        let mut observation = Observation::default();
+        layout
+            .iter()
+            .map(|&cell| {
+                let seen = |cell: usize| if mirrored { mirror(cell) } else { cell };
+                construction.observe(&mut observation);
+                let of = |lane: usize| observation.features.iter().map(|row| row[lane]).collect();
+                let mut found: Vec<(usize, Vec<f32>)> = (0..observation.cells.len())
+                    .map(|lane| (seen(observation.cells[lane] as usize), of(lane)))
+                    .collect();
+                found.retain(|(_, features)| features[LINKS] > 0.0);
+                found.sort_by_key(|(cell, _)| *cell);
+                construction.place(seen(cell) as u32);
+                found
+            })
+            .collect()
+    }
+
+    #[test]
+    fn features_do_not_depend_on_the_orientation() {
+        let layout = [53, 66, 54, 80, 41, 67, 92, 29, 79, 55];
+        for (plain, mirrored) in observed(false, &layout).iter().zip(observed(true, &layout)) {
+            assert_eq!(plain.len(), mirrored.len());
+            for ((cell, features), (same, others)) in plain.iter().zip(&mirrored) {
+                assert_eq!(cell, same);
+                for (at, (a, b)) in features.iter().zip(others).enumerate() {
+                    assert!((a - b).abs() < ROUNDING, "cell {cell}, feature {at}: {a} {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn gains_and_connectivity_are_nearly_those_of_full_evaluations() {
+        let problem = problem(false);
+        let landscape = Landscape::new(&problem);
+        let mut construction = Construction::new(&landscape, 0.9);
+        let mut layout = Vec::new();
+        for cell in [53, 66, 54, 80, 41, 67] {
+            construction.observe(&mut Observation::default());
+            let before = problem.evaluate(&layout);
+            layout.push(CellId(cell));
+            let after = problem.evaluate(&layout);
+            let gain = after.detection_utility - before.detection_utility;
+            let found = f64::from(construction.gains[cell]);
+            let most = LEFT_OUT * problem.prior().total();
+            assert!(gain - found > -1e-4 && gain - found < most, "{cell}: {found} {gain}");
+            let raised = f64::from(construction.sums.raised[cell][0]);
+            if layout.len() > 2 {
+                // The estimate is a Rayleigh quotient: never much below λ₂.
+                assert!(raised > after.algebraic_connectivity - 0.02, "{cell}: {raised}");
+            }
+            construction.place(cell as u32);
+        }
+        assert_eq!(construction.layout(), layout);
     }
 }

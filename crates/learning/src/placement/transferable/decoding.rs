@@ -38,7 +38,7 @@ pub struct Decoding {
 impl Default for Decoding {
     /// 64 layouts in all.
     fn default() -> Self {
-        Self { probes: 16, range: [0.8, 1.7], round: 24, rounds: 2, temperature: 0.6 }
+        Self { probes: 16, range: [0.55, 1.7], round: 24, rounds: 2, temperature: 0.6 }
     }
 }
 
@@ -116,6 +116,6 @@ impl Decoding {
         let left = |p: &(f64, f64)| p.1 - y - slope * (p.0 - x);
         let deviation = (points.iter().map(|p| left(p).powi(2)).sum::<f64>() / n).sqrt();
         let spread = (deviation / slope).clamp(SPREAD[0], SPREAD[1]);
-        ((x - y / slope).clamp(low, high + 0.5).exp(), spread)
+        ((x - y / slope).clamp(low - 0.5, high + 0.5).exp(), spread)
     }
 }

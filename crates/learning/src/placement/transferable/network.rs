@@ -4,6 +4,7 @@
     clippy::inline_always,
     reason = "only what is inlined into the dispatched function is compiled for wide vectors"
 )]
+#![expect(clippy::large_stack_arrays, reason = "a few tens of kilobytes on their way into a box")]
 
 use super::observation::{CANDIDATES, FEATURES};
 use pulp::{Arch, Simd, WithSimd};
@@ -36,11 +37,11 @@ mod place {
 /// Number of weights.
 pub const WEIGHTS: usize = place::END;
 
-/// h₁ = relu(W₁f + b₁), h₂ = relu(W₂h₁ + W_c·mean(h₁) + b₂), logit = w₃·h₂, per
+/// h₁ = relu(W₁f + b₁), h₂ = relu(W₂h₁ + Wₓ·mean(h₁) + b₂), logit = w₃·h₂, per
 /// candidate; the mean is over the candidates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Network {
-    /// W₁ [hidden, feature], b₁, W₂ [hidden, hidden], W_c [hidden, hidden], b₂, w₃.
+    /// W₁ [hidden, feature], b₁, W₂ [hidden, hidden], Wₓ [hidden, hidden], b₂, w₃.
     pub weights: Vec<f32>,
 }
 
@@ -97,7 +98,7 @@ impl Network {
         Self { weights }
     }
 
-    /// W₁, b₁, W₂, `W_c`, b₂, w₃.
+    /// W₁, b₁, W₂, Wₓ, b₂, w₃.
     pub(super) fn parts(&self) -> [&[f32]; 6] {
         let part = |from: usize, to: usize| &self.weights[from..to];
         [

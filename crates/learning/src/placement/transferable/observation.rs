@@ -16,6 +16,7 @@ pub(super) struct Observation {
 }
 
 impl Default for Observation {
+    #[expect(clippy::large_stack_arrays, reason = "18 kilobytes on their way into a box")]
     fn default() -> Self {
         Self {
             cells: Vec::with_capacity(CANDIDATES),

@@ -65,17 +65,16 @@ fn orthogonalise(vector: &mut [f64], other: &[f64]) {
     for (value, other) in vector.iter_mut().zip(other) {
         *value -= along * other;
     }
-    let length = product(vector, vector).sqrt();
     // Parallel by accident: any other direction will do.
-    if length < 1e-9 {
+    if product(vector, vector) < 1e-18 {
         let n = vector.len();
         for (i, value) in vector.iter_mut().enumerate() {
             *value = ((i * i) % n) as f64 / n as f64 - 0.5;
         }
-        let length = product(vector, vector).sqrt();
-        vector.iter_mut().for_each(|value| *value /= length);
-    } else {
-        vector.iter_mut().for_each(|value| *value /= length);
+    }
+    let length = product(vector, vector).sqrt();
+    for value in vector {
+        *value /= length;
     }
 }
 

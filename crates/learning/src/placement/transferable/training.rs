@@ -67,7 +67,7 @@ impl Default for TrainingSettings {
             imitation_updates: 400,
             imitation_episodes: 16,
             imitation_learning_rate: [2e-3, 2e-4],
-            updates: 1000,
+            updates: 560,
             groups: 4,
             rollouts: 32,
             update_epochs: 2,
@@ -165,6 +165,9 @@ pub enum Progress {
 
 /// Adam's ε: far below the gradients, which are small where advantages cancel.
 const EPSILON: f32 = 1e-8;
+
+/// Divergence from the policy of the rollouts at which a minibatch is left out.
+const LARGEST_KL: f64 = 0.1;
 
 /// Problems that annealing solves between two reports.
 const TAUGHT_AT_ONCE: usize = 8;
@@ -364,7 +367,8 @@ impl Training {
         }
     }
 
-    /// One step against the gradient of the mean loss.
+    /// One step against the gradient of the mean loss; none where the policy has come
+    /// so far from the one that built the layouts that they say little about it.
     fn descend(
         &mut self,
         lessons: &[&Lesson],
@@ -372,6 +376,9 @@ impl Training {
         learning_rate: f32,
     ) -> LossSummary {
         let (mut slopes, summary) = gradient(&self.network(), lessons, loss);
+        if summary.approx_kl > LARGEST_KL {
+            return summary;
+        }
         clip_gradient(&mut slopes, self.settings.max_grad_norm);
         self.adam.step(&mut self.weights, &slopes, learning_rate);
         summary

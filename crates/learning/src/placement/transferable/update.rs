@@ -3,6 +3,7 @@
 use super::episode::Distribution;
 use super::network::{Activations, Network, WEIGHTS};
 use super::observation::{CANDIDATES, FEATURES, Observation};
+use crate::ppo::clipped_surrogate;
 use rayon::prelude::*;
 
 /// An observation that is learned from, and what is to be learned.
@@ -72,7 +73,9 @@ pub(super) fn gradient(
                 network.forward(&lesson.features, lesson.count, activations);
                 let choices = Distribution::new(&activations.logits[..lesson.count], 1.0);
                 let mut slopes = slopes(lesson, &choices, settings, &mut summary);
-                slopes.iter_mut().for_each(|slope| *slope *= share);
+                for slope in &mut slopes {
+                    *slope *= share;
+                }
                 let (features, count) = (&lesson.features, lesson.count);
                 network.backward(features, count, activations, &slopes, &mut gradient);
             }
@@ -117,15 +120,14 @@ fn slopes(
         &Aim::Improve { candidate, log_probability, advantage } => {
             let log_ratio = choices.logarithms[candidate] - log_probability;
             let ratio = log_ratio.exp();
-            let SurrogateSlope { loss, along_log } =
-                clipped_surrogate(ratio, advantage, settings.clip_coef);
-            summary.loss += f64::from(loss);
+            let surrogate = clipped_surrogate(ratio, advantage, settings.clip_coef);
+            summary.loss -= f64::from(surrogate.value);
             summary.approx_kl += f64::from(ratio - 1.0 - log_ratio);
             summary.clip_fraction += f64::from(u8::from((ratio - 1.0).abs() > settings.clip_coef));
             for (slope, probability) in slopes.iter_mut().zip(&choices.probabilities) {
-                *slope = -along_log * probability;
+                *slope = surrogate.slope * probability;
             }
-            slopes[candidate] += along_log;
+            slopes[candidate] -= surrogate.slope;
         }
     }
     if settings.entropy_coef > 0.0 {
@@ -138,19 +140,63 @@ fn slopes(
     slopes
 }
 
-struct SurrogateSlope {
-    loss: f32,
-    /// Slope along the logarithm of the probability.
-    along_log: f32,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::placement::transferable::episode::Distribution;
+    use rand::Rng;
+    use sonarfleet::random::stream;
 
-/// −min(rA, clip(r, 1 − ε, 1 + ε)A), the negative of Eq. (12)'s term.
-fn clipped_surrogate(ratio: f32, advantage: f32, clip_coef: f32) -> SurrogateSlope {
-    let clipped = ratio.clamp(1.0 - clip_coef, 1.0 + clip_coef);
-    let (free, held) = (ratio * advantage, clipped * advantage);
-    if free <= held {
-        SurrogateSlope { loss: -free, along_log: -free }
-    } else {
-        SurrogateSlope { loss: -held, along_log: 0.0 }
+    /// Single precision against central differences of the loss in it.
+    const TOLERANCE: f32 = 5e-3;
+
+    /// The loss of a lesson as it is written, from its logits.
+    fn loss(logits: &[f32], aim: &Aim, settings: LossSettings) -> f32 {
+        let choices = Distribution::new(logits, 1.0);
+        let own = match aim {
+            Aim::Imitate(target) => {
+                -target.iter().map(|&(c, share)| share * choices.logarithms[c]).sum::<f32>()
+            }
+            &Aim::Improve { candidate, log_probability, advantage } => {
+                let ratio = (choices.logarithms[candidate] - log_probability).exp();
+                let clip = settings.clip_coef;
+                -(ratio * advantage).min(ratio.clamp(1.0 - clip, 1.0 + clip) * advantage)
+            }
+        };
+        own - settings.entropy_coef * choices.entropy()
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_loss() {
+        let mut random = stream(5, "test/slopes", 0);
+        let settings = LossSettings { clip_coef: 0.2, entropy_coef: 0.05 };
+        let observation = Observation { cells: (0..40).collect(), ..Observation::default() };
+        for case in 0..40 {
+            let mut logits: Vec<f32> = (0..40).map(|_| random.random_range(-2.0..2.0)).collect();
+            let choices = Distribution::new(&logits, 1.0);
+            let candidate = random.random_range(0..40);
+            // Ratios inside and outside of the clip range, away from its corners.
+            let ratio: f32 = [0.5, 0.95, 1.05, 1.6][case % 4];
+            let log_probability = choices.logarithms[candidate] - ratio.ln();
+            let advantage = random.random_range(-2.0..2.0);
+            let aim = if case < 20 {
+                Aim::Improve { candidate, log_probability, advantage }
+            } else {
+                Aim::Imitate(vec![(candidate, 0.7), ((candidate + 1) % 40, 0.3)])
+            };
+            let lesson = Lesson::new(&observation, aim.clone());
+            let found = slopes(&lesson, &choices, settings, &mut LossSummary::default());
+            for at in 0..40 {
+                const STEP: f32 = 1e-2;
+                let middle = logits[at];
+                logits[at] = middle + STEP;
+                let above = loss(&logits, &aim, settings);
+                logits[at] = middle - STEP;
+                let below = loss(&logits, &aim, settings);
+                logits[at] = middle;
+                let expected = (above - below) / (2.0 * STEP);
+                assert!((found[at] - expected).abs() < TOLERANCE, "{case}, {at}: {expected}");
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! hundreds of different waters and sea floors can be made for what must work in all of
 //! them. Whoever wants a random one draws the parameters.
 //!
-//! - [`column`]: the undisturbed water column, from tropical to polar.
+//! - [`mod@column`]: the undisturbed water column, from tropical to polar.
 //! - [`features`]: eddies, a front and internal waves, which bend it sideways.
 //! - [`relief`]: the sea floor.
 

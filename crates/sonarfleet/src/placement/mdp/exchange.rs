@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 /// | | |
 /// |---|---|
 /// | State | a complete layout and the vehicle that is lifted, if any |
-/// | Observation | occupancy vector, [cell]: 1 where a vehicle is, −1 where it is being lifted from |
+/// | Observation | occupancy vector, one value per cell: 1 where a vehicle is, −1 where it is being lifted from |
 /// | Action | to lift: the cell of a vehicle; to drop: the cell it goes to |
 /// | Mask | to lift: occupied cells; to drop: deployable cells that are not occupied (where there are none, the cell lifted from) |
 /// | Reward | 0, and R of Equation (10) of the last layout |

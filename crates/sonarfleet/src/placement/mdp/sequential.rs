@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// | | |
 /// |---|---|
 /// | State | the cells occupied so far, in order |
-/// | Observation | occupancy vector z ∈ {0, 1}ᴺ, [cell] |
+/// | Observation | occupancy vector z ∈ {0, 1}ᴺ, one value per cell |
 /// | Action | the cell of the next vehicle |
 /// | Mask | deployable cells that are not occupied (and see [`LinkMask`]) |
 /// | Reward | 0, and R of Equation (10) with the last vehicle |
