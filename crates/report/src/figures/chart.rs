@@ -54,8 +54,7 @@ pub(super) fn draw(record: &ChartRecord) -> Canvas {
         if let Some((name, level)) = &panel.level {
             let at = axes.at(axes.x[0], *level);
             canvas.dashed_line(&[at, [frame.right(), at[1]]], frame, LEVEL, DASH);
-            let text = [frame.right() - 4.0, at[1] - 3.0];
-            canvas.text(text, name, Align::End, REMARK);
+            canvas.text([frame.x + 4.0, at[1] - 3.0], name, Align::Start, REMARK);
         }
         for series in &panel.series {
             let colour = colour(of(series).unwrap_or(0));

@@ -17,6 +17,8 @@ const RIGHT: f64 = 14.0;
 const BELOW: f64 = 44.0;
 /// Most room for the methods' names.
 const NAMES: f64 = 190.0;
+/// Beyond the values, as a share of their range.
+const ROOM: f64 = 0.05;
 const LEVEL: Stroke = Stroke::new(INK, 0.8);
 const DASH: [f64; 2] = [3.0, 2.0];
 
@@ -63,7 +65,10 @@ pub(super) fn draw(record: &ScoresRecord) -> Canvas {
         let frame = Frame::new(left + index as f64 * (width + GAP), TOP, width, rows * ROW);
         let level = (measure.label == "λ₂").then_some(record.connectivity_threshold);
         let values = record.scores.iter().map(measure.number).chain(level);
-        let (low, high) = ticks::round_range(ticks::range(values), 5, (0.0, 1.0));
+        // Room for the discs at both ends.
+        let range = ticks::range(values)
+            .map(|(low, high)| (low - ROOM * (high - low), high + ROOM * (high - low)));
+        let (low, high) = ticks::round_range(range, 5, (0.0, 1.0));
         let axes = Axes { frame, x: [low, high], y: [0.0, rows] };
         for row in 0..names.len() {
             let y = TOP + (row as f64 + 0.5) * ROW;

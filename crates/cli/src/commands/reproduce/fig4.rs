@@ -1,7 +1,7 @@
 //! Fig. 4: the training of sequential and of exchange PPO, and the paper's comparison
 //! with particle swarm and genetic algorithm.
 
-use super::score::{more, reward, text};
+use super::score::{more, number, reward, text};
 use super::study::{GENETIC, GENETIC_PAPER, SWARM, SWARM_PAPER, Study, scores};
 use super::training::{self, Course, Trained};
 use super::{Outcome, Row};
@@ -33,7 +33,8 @@ pub(super) fn fig4(study: &mut Study, stem: &Path) -> Result<Outcome> {
             let trained = study.trained(course)?;
             let found = training::scores(&trained);
             let end = median(trained.iter().map(Trained::final_reward).collect());
-            let ours = format!("{}; its rollouts at the end: mean R {end:.2}", text(&found));
+            let ours =
+                format!("{}; its rollouts at the end: mean R {}", text(&found), number(end, 2));
             row(course.words(), final_reward, ours);
             let seconds = median(trained.iter().map(|trained| trained.seconds).collect());
             row(format!("{}, training", course.words()), time, format!("{seconds:.1} s"));

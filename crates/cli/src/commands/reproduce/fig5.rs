@@ -1,6 +1,6 @@
 //! Fig. 5: the final reward against the required connectivity τ.
 
-use super::score::{Score, more, reward};
+use super::score::{Score, more, number, reward};
 use super::study::{
     ANNEALING, AUTO, Contestant, GENETIC, GENETIC_PAPER, POLICY, SWARM, SWARM_PAPER, Study, scores,
 };
@@ -48,8 +48,10 @@ pub(super) fn fig5(study: &mut Study, stem: &Path) -> Result<Outcome> {
             what: format!("{}, R from τ 0.93 to 0.97", contestant.words),
             paper,
             ours: format!(
-                "{} ({first:.2} → {last:.2}; {} of {} feasible)",
+                "{} ({} → {}; {} of {} feasible)",
                 more(first, last, 2),
+                number(first, 2),
+                number(last, 2),
                 feasible.count(),
                 by_threshold.iter().flatten().count(),
             ),

@@ -46,12 +46,17 @@ pub(super) fn text(scores: &[Score]) -> String {
     let feasible = scores.iter().filter(|score| score.evaluation.feasible).count();
     let connectivity = scores.iter().map(|score| score.evaluation.algebraic_connectivity).collect();
     format!(
-        "R {:.2} (J_d {:.2}, λ₂ {:.3}; {feasible} of {} feasible)",
-        reward(scores),
+        "R {} (J_d {:.2}, λ₂ {:.3}; {feasible} of {} feasible)",
+        number(reward(scores), 2),
         utility(scores),
         median(connectivity),
         scores.len(),
     )
+}
+
+/// A number with a true minus sign; a dash where there is none.
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    if value.is_finite() { format!("{value:.decimals$}").replace('-', "−") } else { "–".into() }
 }
 
 /// How much more one number is than another, which is positive: "+16.0 %".

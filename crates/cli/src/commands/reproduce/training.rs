@@ -28,7 +28,7 @@ pub(super) struct Course {
 pub(super) struct Trained {
     pub(super) seed: u64,
     pub(super) seconds: f64,
-    /// One per update; the reward is R under the multiplier by which methods are compared.
+    /// One per update in which an episode ended; the reward is R under the multiplier by which methods are compared.
     pub(super) points: Vec<TrainingPoint>,
     pub(super) policy: PaperPolicy,
     /// The layout of the most probable actions, in their order.
@@ -96,13 +96,15 @@ pub(super) fn scores(trained: &[Trained]) -> Vec<Score> {
 fn run<M: PlacementMdp>(mut trainer: PlacementTrainer<M>, seconds: f64, seed: u64) -> Trained {
     let started = Instant::now();
     let mut points = Vec::new();
-    loop {
-        let done = (started.elapsed().as_secs_f64() / seconds).min(1.0);
-        if done >= 1.0 && !points.is_empty() {
-            break;
-        }
+    let mut done = 0.0;
+    while done < 1.0 {
         let update = trainer.update(done);
-        points.push(point(&update, started.elapsed().as_secs_f64()));
+        let elapsed = started.elapsed().as_secs_f64();
+        // A rollout shorter than an episode may see none end.
+        if update.score.is_finite() {
+            points.push(point(&update, elapsed));
+        }
+        done = elapsed / seconds;
     }
     let seconds = started.elapsed().as_secs_f64();
     let policy = trainer.policy();
