@@ -9,13 +9,14 @@ use rayon::prelude::*;
 use std::num::NonZeroUsize;
 
 /// Simulated annealing (Kirkpatrick, Gelatt & Vecchi 1983,
-/// doi:10.1126/science.220.4598.671) over feasible layouts: a vehicle moves to a
-/// free cell near itself or near another vehicle; exchanges that would bring λ₂
-/// below τ are refused whatever the temperature, which falls geometrically.
+/// doi:10.1126/science.220.4598.671): a vehicle moves to a free cell, mostly near
+/// itself or near another vehicle. Layouts whose λ₂ is below τ pay for it, the more the
+/// longer the search stays there, so that it swings about the threshold while the
+/// temperature falls geometrically.
 ///
 /// Starts from connected greedy or, where that is infeasible, from the best disc;
 /// where no disc is feasible either, exchanges that raise λ₂ come first. A proposal
-/// costs one to two microseconds; several chains share the budget.
+/// costs about a microsecond; several chains share the budget.
 #[derive(Debug, Clone, Copy)]
 pub struct Annealing {
     /// Independent chains; an evaluation budget is divided among them, and they
@@ -26,11 +27,11 @@ pub struct Annealing {
 
 impl Default for Annealing {
     fn default() -> Self {
-        Self { chains: const { NonZeroUsize::new(2).unwrap() } }
+        Self { chains: const { NonZeroUsize::new(4).unwrap() } }
     }
 }
 
-const COOLING: Cooling = Cooling { from: 0.2, to: 0.005 };
+const COOLING: Cooling = Cooling { from: 0.1, to: 0.007 };
 
 impl Solver for Annealing {
     fn name(&self) -> &'static str {

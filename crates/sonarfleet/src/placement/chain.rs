@@ -2,15 +2,16 @@
 
 use super::coverage::Coverage;
 use super::network::Network;
+use super::price::Price;
 use super::solver::Meter;
 use super::{Budget, PlacementProblem};
 use crate::grid::CellId;
 use crate::random::Stream;
 use rand::Rng;
 
-/// A Markov chain of layouts: a vehicle moves to a free cell near itself or near
-/// another vehicle; once the layout is feasible, exchanges that would bring λ₂ below τ
-/// are refused whatever the temperature.
+/// A Markov chain of layouts: a vehicle moves to a free cell near itself, near another
+/// vehicle or, now and then, anywhere; layouts pay for λ₂ below τ ([`Price`]). The best
+/// layout is the best feasible one.
 pub(super) struct Chain<'p> {
     problem: &'p PlacementProblem,
     random: Stream,
@@ -37,7 +38,11 @@ pub(super) struct Cooling {
 const PROPOSALS_PER_VISIT: u64 = 12;
 
 /// Share of the proposals that look around the vehicle itself.
-const OWN_NEIGHBOURHOOD: f64 = 0.75;
+const OWN_NEIGHBOURHOOD: f64 = 0.8;
+
+/// Share of the proposals that look anywhere: cells may be linked by way of the bottom
+/// with none between them that is.
+const ANYWHERE: f64 = 0.02;
 
 /// Largest distance of a proposal from the cell it looks around, in cells.
 const REACH: i64 = 2;
@@ -96,6 +101,7 @@ impl<'p> Chain<'p> {
         self.history.push((self.proposals, best));
         let scale = utility / self.layout.len() as f64;
         let (hot, cold) = (scale * cooling.from, scale * cooling.to);
+        let mut price = Price::new(network.threshold(), scale);
         let first = meter.used(self.proposals);
         loop {
             let used = meter.used(self.proposals);
@@ -110,10 +116,12 @@ impl<'p> Chain<'p> {
                 let old = self.layout[slot];
                 let Some(cell) = self.proposal(old) else { continue };
                 let proposed = coverage.utility_with(cell);
-                // Metropolis: accepted with probability exp(ΔJ / T).
+                // Metropolis: accepted with probability exp(ΔE / T), E = J_d − price.
                 let chance: f64 = self.random.random();
-                if proposed <= utility + temperature * chance.ln()
-                    || !network.try_exchange(slot, cell)
+                let worth = utility - price.of(network.connectivity());
+                let slack = proposed - (worth + temperature * chance.ln());
+                if slack <= 0.0
+                    || !network.try_exchange(slot, cell, price.least_connectivity(slack))
                 {
                     continue;
                 }
@@ -121,31 +129,42 @@ impl<'p> Chain<'p> {
                 self.layout[slot] = cell;
                 self.taken[old.0] = false;
                 self.taken[cell.0] = true;
-                if utility > best + LEAST_IMPROVEMENT {
+                if utility > best + LEAST_IMPROVEMENT && network.is_feasible() {
                     best = utility;
                     self.best.copy_from_slice(&self.layout);
                     self.history.push((self.proposals, best));
                 }
             }
             coverage.insert(slot, self.layout[slot]);
+            price.adjust(network.connectivity());
         }
     }
 
-    /// A free cell near the vehicle in `own` or near any other; none where the
-    /// draw hits a cell that is not free.
+    /// A free cell near the vehicle in `own`, near any other, or anywhere; none where
+    /// the draw hits a cell that is not free.
     fn proposal(&mut self, own: CellId) -> Option<CellId> {
-        let grid = self.problem.grid();
-        let around = if self.random.random::<f64>() < OWN_NEIGHBOURHOOD {
-            own
-        } else {
-            self.layout[self.random.random_range(0..self.layout.len())]
+        let cell = match self.random.random::<f64>() {
+            draw if draw < OWN_NEIGHBOURHOOD => self.near(own),
+            draw if draw < 1.0 - ANYWHERE => {
+                let other = self.random.random_range(0..self.layout.len());
+                self.near(self.layout[other])
+            }
+            _ => {
+                let cells = self.problem.deployable();
+                Some(cells[self.random.random_range(0..cells.len())])
+            }
         };
-        let (column, row) = grid.column_row(around);
+        cell.filter(|cell| !self.taken[cell.0])
+    }
+
+    /// A cell within reach of another, unless that is off the grid.
+    fn near(&mut self, cell: CellId) -> Option<CellId> {
+        let grid = self.problem.grid();
+        let (column, row) = grid.column_row(cell);
         let column = column as i64 + self.random.random_range(-REACH..=REACH);
         let row = row as i64 + self.random.random_range(-REACH..=REACH);
         let inside =
             (0..grid.columns as i64).contains(&column) && (0..grid.rows as i64).contains(&row);
-        let cell = CellId((row * grid.columns as i64 + column) as usize);
-        (inside && !self.taken[cell.0]).then_some(cell)
+        inside.then(|| CellId((row * grid.columns as i64 + column) as usize))
     }
 }

@@ -61,6 +61,7 @@ fn improve(
 ) -> Option<f64> {
     let old = coverage.remove(slot);
     let least = coverage.utility_with(old) + LEAST_IMPROVEMENT;
+    let threshold = network.threshold();
     let mut better: Vec<(f64, CellId)> = problem
         .deployable()
         .iter()
@@ -69,7 +70,7 @@ fn improve(
         .filter(|&(utility, _)| utility > least)
         .collect();
     better.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let found = better.into_iter().find(|&(_, cell)| network.try_exchange(slot, cell));
+    let found = better.into_iter().find(|&(_, cell)| network.try_exchange(slot, cell, threshold));
     coverage.insert(slot, found.map_or(old, |(_, cell)| cell));
     found.map(|(utility, _)| utility)
 }

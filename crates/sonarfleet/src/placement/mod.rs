@@ -5,6 +5,7 @@ mod chain;
 mod error;
 mod evaluation;
 mod method;
+mod price;
 
 pub mod annealing;
 pub mod auto;

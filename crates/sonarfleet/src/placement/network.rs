@@ -4,8 +4,8 @@ use super::problem::PlacementProblem;
 use crate::grid::CellId;
 use crate::sonar::connectivity::ConnectivityTest;
 
-/// The communication graph of a layout whose λ₂ reaches the threshold τ, kept so
-/// by refusing every exchange that would break it.
+/// The communication graph of a layout, whose exchanges are refused where they would
+/// bring its λ₂ below what the caller asks for.
 ///
 /// Most proposals are refused by two upper bounds on λ₂ that cost as much as
 /// reading the candidate's links: n/(n−1) times the smallest degree, and the
@@ -36,8 +36,8 @@ struct Fiedler {
     energy: f64,
 }
 
-/// Exchanges are held to a threshold so much above τ that rounding cannot leave a
-/// layout below it.
+/// Feasible layouts are held to a threshold so much above τ that rounding cannot leave
+/// them below it.
 const MARGIN: f64 = 1e-9;
 
 impl<'p> Network<'p> {
@@ -64,18 +64,33 @@ impl<'p> Network<'p> {
             new_degrees: vec![0.0; n],
             old_row: vec![0.0; n],
         };
-        network.passes().then(|| {
+        network.is_feasible().then(|| {
             network.sharpen();
             network
         })
     }
 
-    /// Moves the vehicle in `slot` to `cell`, if λ₂ still reaches the threshold;
-    /// says whether it did.
+    /// The threshold τ, and a little more for rounding.
+    pub fn threshold(&self) -> f64 {
+        self.problem.connectivity_threshold() + MARGIN
+    }
+
+    /// λ₂ as the present Fiedler vector has it, a hair too high; ∞ for a lone vehicle.
+    pub fn connectivity(&self) -> f64 {
+        if self.stations.len() == 1 { f64::INFINITY } else { self.fiedler.energy }
+    }
+
+    /// Whether λ₂ reaches the threshold, to the last digit.
+    pub fn is_feasible(&mut self) -> bool {
+        self.passes(self.threshold())
+    }
+
+    /// Moves the vehicle in `slot` to `cell`, if λ₂ then exceeds `least`; says
+    /// whether it did.
     ///
     /// # Panics
     /// Where there is no such slot.
-    pub fn try_exchange(&mut self, slot: usize, cell: CellId) -> bool {
+    pub fn try_exchange(&mut self, slot: usize, cell: CellId, least: f64) -> bool {
         let n = self.stations.len();
         if n == 1 {
             self.stations[0] = cell;
@@ -86,14 +101,14 @@ impl<'p> Network<'p> {
             *link = self.problem.link(cell, station);
         }
         self.candidate[at] = 0.0;
-        if !self.degrees_allow(at) || !self.fiedler_allows(at) {
+        if !self.degrees_allow(at, least) || !self.fiedler_allows(at, least) {
             return false;
         }
 
         self.old_row.copy_from_slice(&self.weights[at * n..(at + 1) * n]);
         self.exchange_links(at);
         std::mem::swap(&mut self.degrees, &mut self.new_degrees);
-        if self.passes() {
+        if self.passes(least) {
             self.stations[at] = cell;
             self.sharpen();
             true
@@ -114,15 +129,11 @@ impl<'p> Network<'p> {
         }
     }
 
-    fn threshold(&self) -> f64 {
-        self.problem.connectivity_threshold() + MARGIN
-    }
-
-    /// Whether λ₂ ≤ n/(n−1) · smallest degree (Fiedler 1973) leaves the threshold
+    /// Whether λ₂ ≤ n/(n−1) · smallest degree (Fiedler 1973) leaves `least`
     /// within reach; computes the degrees after the exchange.
-    fn degrees_allow(&mut self, at: usize) -> bool {
+    fn degrees_allow(&mut self, at: usize, least: f64) -> bool {
         let n = self.stations.len();
-        let least = self.threshold() * (n - 1) as f64 / n as f64;
+        let least = least * (n - 1) as f64 / n as f64;
         let old_row = &self.weights[at * n..(at + 1) * n];
         let mut smallest = f64::INFINITY;
         for (((new, old), link), old_link) in
@@ -138,8 +149,8 @@ impl<'p> Network<'p> {
     }
 
     /// Whether the Rayleigh quotient of the old Fiedler vector, with its best value
-    /// at the candidate, leaves the threshold within reach.
-    fn fiedler_allows(&self, at: usize) -> bool {
+    /// at the candidate, leaves `least` within reach.
+    fn fiedler_allows(&self, at: usize, least: f64) -> bool {
         let n = self.stations.len() as f64;
         let Fiedler { vector, energies, energy } = &self.fiedler;
         let (mut first, mut second) = (0.0, 0.0);
@@ -153,12 +164,11 @@ impl<'p> Network<'p> {
         // The vector has length 1 and sums to 0.
         let change = best - vector[at];
         let squares = 1.0 - vector[at] * vector[at] + best * best;
-        numerator >= self.threshold() * (squares - change * change / n)
+        numerator >= least * (squares - change * change / n)
     }
 
-    fn passes(&mut self) -> bool {
-        let threshold = self.threshold();
-        self.stations.len() == 1 || self.test.exceeds(&self.weights, &self.degrees, threshold)
+    fn passes(&mut self, least: f64) -> bool {
+        self.stations.len() == 1 || self.test.exceeds(&self.weights, &self.degrees, least)
     }
 
     /// Brings the Fiedler vector up to date with the factor of the graph that

@@ -202,7 +202,7 @@ proptest! {
             let mut changed = layout.clone();
             changed[slot] = cell;
             let connectivity = problem.connectivity(&changed);
-            let allowed = network.try_exchange(slot, cell);
+            let allowed = network.try_exchange(slot, cell, 0.95);
             prop_assert_eq!(allowed, connectivity >= 0.95, "λ₂ {}", connectivity);
             if allowed {
                 layout = changed;
