@@ -5,6 +5,7 @@
 )]
 
 use super::settings::PpoSettings;
+use super::surrogate::clipped_surrogate;
 use crate::network::vector::{self, dot, exp, largest, wide};
 use crate::network::{Output, apply_mask};
 use rayon::prelude::*;
@@ -156,11 +157,8 @@ fn policy(
     let entropy = log_total - dot(powers, logits) / total;
     let log_ratio = logits[action.index] - log_total - action.log_probability;
     let ratio = log_ratio.exp();
-    let clipped = ratio.clamp(1.0 - clip_coef, 1.0 + clip_coef);
-    let (plain, bounded) = (ratio * action.advantage, clipped * action.advantage);
-    let surrogate = plain.min(bounded); // Eq. (12)
-    // Where the clipped branch is the smaller, it is flat.
-    let slope = if plain <= bounded { -plain * share } else { 0.0 };
+    let surrogate = clipped_surrogate(ratio, action.advantage, clip_coef);
+    let slope = -surrogate.slope * share;
 
     // ∂(−ln p(a))/∂z = p − 1(a); ∂(−H)/∂z = p (ln p + H).
     let entropy_slope = ent_coef * share;
@@ -171,7 +169,7 @@ fn policy(
     }
     logits[action.index] += slope;
 
-    sum.policy_loss -= f64::from(surrogate);
+    sum.policy_loss -= f64::from(surrogate.value);
     sum.entropy += f64::from(entropy);
     sum.approx_kl += f64::from(ratio) - 1.0 - f64::from(log_ratio);
     sum.clip_fraction += f64::from(u8::from((ratio - 1.0).abs() > clip_coef));
