@@ -8,7 +8,7 @@ mod train;
 pub(crate) use bellhop::{BellhopArgs, ModelName};
 pub(crate) use bench::{BenchAcousticsArgs, BenchCommand, BenchPlacementArgs};
 pub(crate) use reproduce::{Figure, ReproduceArgs};
-pub(crate) use train::{PlacementPolicy, Preset, TrainCommand, TrainPlacementArgs};
+pub(crate) use train::{PlacementPolicy, Preset, Scratch, TrainCommand, TrainPlacementArgs};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use sonarfleet::placement::Method;
@@ -102,6 +102,12 @@ pub(crate) struct RunArgs {
     /// Seed of all randomness [default: the scenario's]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    #[arg(
+        long,
+        value_name = "M",
+        help = format!("Method of placement: {} [default: the scenario's]", methods())
+    )]
+    pub(crate) method: Option<String>,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
 }

@@ -30,6 +30,15 @@ pub(crate) enum Preset {
     Ours,
 }
 
+/// How `policy` begins without weights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Scratch {
+    /// Imitates annealed layouts of INPUT first
+    Taught,
+    /// Has nothing but its reward
+    Untaught,
+}
+
 /// Arguments of `train placement`.
 #[derive(Debug, Args)]
 #[command(
@@ -38,6 +47,7 @@ pub(crate) enum Preset {
     sonarfleet train placement --output policy                  the policy that ships, as its header says\n  \
     sonarfleet train placement --output policy --resume         goes on where it was stopped\n  \
     sonarfleet train placement instance.npz --method sequential-ppo --preset paper --seconds 250 --output ppo\n  \
+    sonarfleet train placement instance.npz --scratch taught --seconds 250 --output alone\n  \
     sonarfleet train placement mission.toml --epoch 1 --from policy/policy.weights --output tuned"
 )]
 pub(crate) struct TrainPlacementArgs {
@@ -64,6 +74,9 @@ pub(crate) struct TrainPlacementArgs {
         help = "Policy to start from: .weights of `policy`, or the checkpoint.bin of one of the others"
     )]
     pub(crate) from: Option<PathBuf>,
+    /// Train `policy` on INPUT alone, from random weights [default: from those that ship]
+    #[arg(long, value_enum, value_name = "HOW", requires = "input", conflicts_with = "from")]
+    pub(crate) scratch: Option<Scratch>,
     /// Updates of proximal policy optimisation [default: as the settings say]
     #[arg(long, value_name = "N")]
     pub(crate) updates: Option<usize>,

@@ -22,6 +22,10 @@ pub(crate) fn run(args: &RunArgs, manner: Manner) -> Result<()> {
     if let Some(seed) = args.seed {
         scenario.file.seed = seed;
     }
+    if let Some(name) = &args.method {
+        scenario.method = name.parse()?;
+        scenario.file.placement.method.clone_from(name);
+    }
     let output = args.output.clone().unwrap_or_else(first_free);
     let directory =
         if args.resume { RunDirectory::resume(&output) } else { RunDirectory::create(&output) }?;

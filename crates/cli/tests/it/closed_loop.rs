@@ -1,6 +1,8 @@
 //! `sonarfleet run`: whole runs, their results and their reproducibility.
 
-use crate::program::{SCENARIO, assert_same_results, json, sonarfleet, succeed, wait_for, write};
+use crate::program::{
+    SCENARIO, assert_same_results, fail, json, sonarfleet, succeed, wait_for, write,
+};
 use std::process::Stdio;
 
 #[test]
@@ -50,6 +52,22 @@ fn a_run_says_what_came_of_it_and_leaves_everything_promised() {
     let again = ["run", resolved.to_str().unwrap(), "--quiet", "--output", "again"];
     succeed(home.path(), &again);
     assert_same_results(&out, &home.path().join("again"));
+}
+
+#[test]
+fn another_method_than_the_scenarios_may_place_the_fleet() {
+    let home = tempfile::tempdir().unwrap();
+    write(home.path(), "test.toml", SCENARIO);
+    let run = ["run", "test.toml", "--output", "out", "--method"];
+    let said = json(home.path(), &[&run[..], &["connected-greedy"]].concat());
+    for epoch in said["epochs"].as_array().unwrap() {
+        assert_eq!(epoch["feasible"], true);
+        assert_eq!(epoch["placement_parts"].as_array().map_or(0, Vec::len), 0, "one part only");
+    }
+    let resolved = std::fs::read_to_string(home.path().join("out/scenario.toml")).unwrap();
+    assert!(resolved.contains("method = \"connected-greedy\""), "{resolved}");
+    let complaint = fail(home.path(), &[&run[..], &["guessing"]].concat());
+    assert!(complaint.contains("guessing") && complaint.contains("annealing"), "{complaint}");
 }
 
 #[test]

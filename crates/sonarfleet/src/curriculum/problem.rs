@@ -29,7 +29,8 @@ const FREE_CELLS: usize = 40;
 /// Problem number `index` of a seed, from tables of oceans: the paper's problem and
 /// instances like it are in the middle of what is drawn.
 ///
-/// - Loss: a turned table, half of the time blended with another, sometimes speckled.
+/// - Loss: a turned table, half of the time blended with another, half of the time with
+///   deeper shadows, sometimes with returns from the bottom or speckled.
 /// - Prior: corridors, blobs, rings or uniform, Σ `P_T` from 20 to 60.
 /// - Target: as loud that half are heard, in the median, at 1 to 5 cells.
 /// - Fleet: 12 to 60 vehicles, mostly 30 to 50; τ from 0.5 to 1.5, mostly near 0.95.

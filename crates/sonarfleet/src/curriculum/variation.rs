@@ -1,13 +1,15 @@
-//! More tables from the computed ones: turned, blended and speckled.
+//! More tables from the computed ones: turned, blended, with deeper shadows, with returns
+//! from the bottom, and speckled.
 
 use super::chance::{between, gamma, happens};
-use super::{PracticeTable, Symmetry};
+use super::{LossCurve, PracticeTable, Symmetry};
+use crate::grid::CellId;
 use crate::random::Stream;
 use crate::sonar::transmission_loss::LARGEST_LOSS_DB;
 use rand::Rng;
 
-/// A turned table of any of the oceans, often blended with another of the same grid, and
-/// sometimes speckled.
+/// A turned table of any of the oceans, often blended with another of the same grid or
+/// with deeper shadows, sometimes with returns from a firm bottom or speckled.
 pub(super) fn varied_table(random: &mut Stream, tables: &[PracticeTable]) -> PracticeTable {
     let turned = |random: &mut Stream| {
         let table = &tables[random.random_range(0..tables.len())];
@@ -20,6 +22,15 @@ pub(super) fn varied_table(random: &mut Stream, tables: &[PracticeTable]) -> Pra
             let weight = between(random, 0.0, 0.5) as f32;
             blend(&mut table, &other, weight, happens(random, 0.5));
         }
+    }
+    if happens(random, 0.5) {
+        let edge_db = LossCurve::of(&table).loss_db(between(random, 1.5, 3.5)) as f32;
+        deepen_shadows(&mut table, edge_db, between(random, 0.5, 3.0) as f32);
+    }
+    if happens(random, 0.25) {
+        let level_db = LossCurve::of(&table).loss_db(between(random, 2.0, 4.0));
+        let level_db = level_db + between(random, -3.0, 8.0);
+        return_from_bottom(random, &mut table, level_db);
     }
     if happens(random, 0.25) {
         let shape = between(random, 1.5, 6.0);
@@ -40,6 +51,47 @@ fn blend(table: &mut PracticeTable, other: &PracticeTable, weight: f32, of_inten
         } else {
             *loss + weight * (other - *loss)
         };
+    }
+}
+
+/// Sharper edges between what is heard and what is not: losses above that of the edge
+/// exceed it by more, as over a softer bottom and under a steeper thermocline.
+fn deepen_shadows(table: &mut PracticeTable, edge_db: f32, by: f32) {
+    for loss in &mut table.loss_db {
+        if *loss < LARGEST_LOSS_DB {
+            *loss = (*loss + by * (*loss - edge_db).max(0.0)).min(LARGEST_LOSS_DB);
+        }
+    }
+}
+
+/// Adds paths by way of a firm bottom, which reach everywhere at nearly the same level: it
+/// changes by a few decibels over the region, as the depth does, and from pair to pair.
+fn return_from_bottom(random: &mut Stream, table: &mut PracticeTable, level_db: f64) {
+    let grid = table.grid;
+    let [east_db, north_db] = [0, 1].map(|_| between(random, -4.0, 4.0));
+    let roughness_db = between(random, 0.3, 2.0);
+    let offsets_db: Vec<f64> = grid
+        .cells()
+        .map(|cell| grid.centre(cell))
+        .map(|centre| {
+            east_db * (centre.east_m / grid.width_m() - 0.5)
+                + north_db * (centre.north_m / grid.height_m() - 0.5)
+        })
+        .collect();
+    let cells = grid.cell_count();
+    for source in grid.cells() {
+        for target in (0..=source.0).map(CellId) {
+            let change_db = between(random, -roughness_db, roughness_db);
+            let trend_db = f64::midpoint(offsets_db[source.0], offsets_db[target.0]);
+            let bottom = 10f64.powf(-0.1 * (level_db + trend_db + change_db));
+            let ways = [source.0 * cells + target.0, target.0 * cells + source.0];
+            for &way in &ways[..if source == target { 1 } else { 2 }] {
+                let loss = &mut table.loss_db[way];
+                if *loss < LARGEST_LOSS_DB {
+                    *loss = (-10.0 * (10f64.powf(-0.1 * f64::from(*loss)) + bottom).log10()) as f32;
+                }
+            }
+        }
     }
 }
 
@@ -84,6 +136,30 @@ mod tests {
         // −10 lg(0.75·10⁻⁵ + 0.25·10⁻⁶) is 51.1070.
         assert!((intensities.loss_db[0] - 51.1070).abs() < 1e-3, "{}", intensities.loss_db[0]);
         assert!((intensities.loss_db[2] - 90.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn shadows_deepen_beyond_their_edge_only() {
+        let mut losses = table([60.0, 75.0, 90.0, LARGEST_LOSS_DB]);
+        deepen_shadows(&mut losses, 70.0, 2.0);
+        assert_eq!(losses.loss_db, [60.0, 85.0, 130.0, LARGEST_LOSS_DB]);
+    }
+
+    #[test]
+    fn the_bottom_returns_its_level_where_nothing_else_arrives() {
+        let grid = SurveillanceGrid { columns: 5, rows: 4, cell_width_m: 1.0, cell_height_m: 1.0 };
+        let mut losses = PracticeTable { grid, loss_db: vec![150.0; 400] };
+        losses.loss_db[..20].fill(60.0);
+        losses.loss_db[399] = LARGEST_LOSS_DB;
+        return_from_bottom(&mut stream(2, "test/bottom", 0), &mut losses, 80.0);
+        for (index, &loss) in losses.loss_db.iter().enumerate() {
+            match index {
+                0..20 => assert!((loss - 60.0).abs() < 0.2, "{loss} beside a stronger path"),
+                399 => assert_eq!(loss.to_bits(), LARGEST_LOSS_DB.to_bits()),
+                _ => assert!((loss - 80.0).abs() < 6.0, "{loss}"),
+            }
+        }
+        assert_eq!(losses.loss_db[20 * 7 + 12].to_bits(), losses.loss_db[20 * 12 + 7].to_bits());
     }
 
     #[test]

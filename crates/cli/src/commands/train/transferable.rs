@@ -1,11 +1,12 @@
 //! The policy that serves any problem: over practice oceans, or fine-tuned on one.
 
 use super::logbook::Logbook;
-use crate::args::TrainPlacementArgs;
+use crate::args::{Scratch, TrainPlacementArgs};
 use crate::commands::problem::ProblemSource;
 use crate::commands::{Manner, cache_directory, print_json, say};
 use crate::progress::Progress as Bar;
 use anyhow::{Context, Result};
+use clap::ValueEnum;
 use serde_json::json;
 use sonarfleet::curriculum::{OceanStore, PracticeTable, practice_problem};
 use sonarfleet::placement::{Budget, PlacementProblem, Solver};
@@ -21,10 +22,12 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
     let Some(path) = &args.input else {
         let tables = practice_tables(args, manner)?;
         let practice = |index| practice_on(&tables, args.seed, index);
+        let defaults = TrainingSettings { seed: args.seed, ..TrainingSettings::default() };
+        let settings = settings(args, defaults);
         let training = match (kept, &args.from) {
             (Some(kept), _) => kept,
-            (None, Some(from)) => Training::improving(Network::load(from)?, settings(args)),
-            (None, None) => Training::new(settings(args)),
+            (None, Some(from)) => Training::improving(Network::load(from)?, settings),
+            (None, None) => Training::new(settings),
         };
         let training = run(args, training, &practice, 1.0, manner)?;
         return finish(args, &training, None, manner);
@@ -40,23 +43,31 @@ pub(super) fn train(args: &TrainPlacementArgs, manner: Manner) -> Result<()> {
     };
     let (problem, _) = source.problem(manner)?;
     let practice = |_| problem.clone();
-    let training = if let Some(kept) = kept {
-        kept
-    } else {
-        let network = match &args.from {
-            Some(from) => Network::load(from)?,
-            None => TransferablePolicy::shipped().network,
-        };
-        let defaults = TrainingSettings::fine_tuning(args.seed);
-        let updates = args.updates.unwrap_or(defaults.updates);
-        Training::improving(network, TrainingSettings { updates, ..defaults })
-    };
+    let training = if let Some(kept) = kept { kept } else { begin(args)? };
     let training = run(args, training, &practice, 1.0, manner)?;
     finish(args, &training, Some(&problem), manner)
 }
 
-fn settings(args: &TrainPlacementArgs) -> TrainingSettings {
-    let defaults = TrainingSettings { seed: args.seed, ..TrainingSettings::default() };
+/// A training on one problem.
+fn begin(args: &TrainPlacementArgs) -> Result<Training> {
+    let with = |defaults| settings(args, defaults);
+    Ok(match (args.scratch, &args.from) {
+        (Some(Scratch::Taught), _) => Training::new(with(TrainingSettings::one_problem(args.seed))),
+        (Some(Scratch::Untaught), _) => {
+            Training::new(with(TrainingSettings::one_problem_untaught(args.seed)))
+        }
+        (None, from) => {
+            let network = match from {
+                Some(from) => Network::load(from)?,
+                None => TransferablePolicy::shipped().network,
+            };
+            Training::improving(network, with(TrainingSettings::fine_tuning(args.seed)))
+        }
+    })
+}
+
+/// The defaults, but for what the command line says.
+fn settings(args: &TrainPlacementArgs, defaults: TrainingSettings) -> TrainingSettings {
     TrainingSettings { updates: args.updates.unwrap_or(defaults.updates), ..defaults }
 }
 
@@ -183,6 +194,9 @@ fn command(args: &TrainPlacementArgs) -> String {
         words.push(format!("--oceans {}", args.oceans));
     }
     words.push(format!("--seed {}", args.seed));
+    if let Some(how) = args.scratch.and_then(|how| how.to_possible_value()) {
+        words.push(format!("--scratch {}", how.get_name()));
+    }
     if let Some(updates) = args.updates {
         words.push(format!("--updates {updates}"));
     }

@@ -62,12 +62,12 @@ impl Default for TrainingSettings {
     fn default() -> Self {
         Self {
             seed: 1,
-            taught: 96,
-            teacher_evaluations: 250_000,
+            taught: 160,
+            teacher_evaluations: 500_000,
             imitation_updates: 400,
             imitation_episodes: 16,
             imitation_learning_rate: [2e-3, 2e-4],
-            updates: 560,
+            updates: 1100,
             groups: 4,
             rollouts: 32,
             update_epochs: 2,
@@ -75,13 +75,30 @@ impl Default for TrainingSettings {
             clip_coef: 0.2,
             entropy_coef: 0.002,
             max_grad_norm: 1.0,
-            learning_rate: [2e-3, 2e-4],
+            learning_rate: [3e-3, 2e-4],
             aims: [0.85, 1.1],
         }
     }
 }
 
 impl TrainingSettings {
+    /// For one problem from scratch: layouts of its own annealing, imitation, and what
+    /// is left of about four minutes for improvement.
+    pub fn one_problem(seed: u64) -> Self {
+        Self {
+            taught: 24,
+            imitation_updates: 120,
+            updates: 300,
+            aims: [0.95, 1.1],
+            ..Self { seed, ..Self::default() }
+        }
+    }
+
+    /// For one problem from scratch without anything to imitate: reward alone.
+    pub fn one_problem_untaught(seed: u64) -> Self {
+        Self { taught: 0, imitation_updates: 0, updates: 400, ..Self::one_problem(seed) }
+    }
+
     /// For fine-tuning on one problem: no imitation, half a minute.
     pub fn fine_tuning(seed: u64) -> Self {
         Self {
@@ -240,7 +257,9 @@ impl Training {
             .into_par_iter()
             .map(|index| {
                 let problem = practice(index as u64);
-                let placement = teacher.solve(&problem, budget, self.settings.seed);
+                // Another seed each time: practice may be one problem for all indices.
+                let seed = self.settings.seed.wrapping_add(index as u64);
+                let placement = teacher.solve(&problem, budget, seed);
                 if placement.evaluation.feasible { placement.cells } else { Vec::new() }
             })
             .collect();
