@@ -2,7 +2,7 @@ use super::{CacheArgs, positive};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// The paper's figures of placement.
+/// The paper's figures of placement, and what it says of them in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub(crate) enum Figure {
     /// A random layout and optimised ones
@@ -15,10 +15,14 @@ pub(crate) enum Figure {
     Fig6,
     /// A policy for a larger fleet, cut short
     Fig7,
+    /// Training that goes on from the last epoch's policy, and from scratch
+    Incremental,
 }
 
 impl Figure {
-    pub(crate) const ALL: [Self; 5] = [Self::Fig3, Self::Fig4, Self::Fig5, Self::Fig6, Self::Fig7];
+    /// The paper's.
+    pub(crate) const PAPER: [Self; 5] =
+        [Self::Fig3, Self::Fig4, Self::Fig5, Self::Fig6, Self::Fig7];
 }
 
 /// Arguments of `reproduce`.
@@ -32,10 +36,11 @@ impl Figure {
     sonarfleet reproduce                                     all figures, on the embedded scenario\n  \
     sonarfleet reproduce fig5 --seeds 5                      no training: a few minutes\n  \
     sonarfleet reproduce fig6 --input instance.npz --seconds 60 --output fig6\n  \
-    sonarfleet reproduce fig4 fig7 --seeds 1 --json"
+    sonarfleet reproduce fig4 fig7 --seeds 1 --json\n  \
+    sonarfleet reproduce incremental --input mission.toml --seconds 120"
 )]
 pub(crate) struct ReproduceArgs {
-    /// Figures [default: all]
+    /// Figures [default: those of the paper]
     #[arg(value_enum, value_name = "FIGURE")]
     pub(crate) figures: Vec<Figure>,
     /// Scenario (.toml), whose first epoch is used, or placement instance (.npz) [default: the embedded scenario]

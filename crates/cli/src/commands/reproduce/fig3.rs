@@ -12,7 +12,7 @@ use sonarfleet_learning::placement::paper::Process;
 use sonarfleet_report::write_layouts;
 use std::path::Path;
 
-pub(super) fn fig3(study: &mut Study, stem: &Path) -> Result<Outcome> {
+pub(super) fn fig3(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let vehicles = study.problem.vehicles();
     let course = Course { process: Process::Sequential, preset: Preset::Ours, vehicles };
     let trained = study.trained(course)?;
@@ -68,6 +68,6 @@ pub(super) fn fig3(study: &mut Study, stem: &Path) -> Result<Outcome> {
     Ok(Outcome { rows, record: serde_json::to_value(record)? })
 }
 
-fn is_blocked(study: &Study, cell: CellId) -> bool {
+fn is_blocked(study: &Study<'_>, cell: CellId) -> bool {
     study.input.deployable.as_ref().is_some_and(|deployable| !deployable[cell.0])
 }

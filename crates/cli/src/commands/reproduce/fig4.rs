@@ -18,7 +18,7 @@ use std::path::Path;
 /// Points of a curve at most; each is the mean over as many updates as that takes.
 const POINTS: usize = 150;
 
-pub(super) fn fig4(study: &mut Study, stem: &Path) -> Result<Outcome> {
+pub(super) fn fig4(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let vehicles = study.problem.vehicles();
     let mut rows = Vec::new();
     let mut row =
@@ -82,7 +82,7 @@ pub(super) fn fig4(study: &mut Study, stem: &Path) -> Result<Outcome> {
     Ok(Outcome { rows, record: json!({"trainings": records, "peers": peers}) })
 }
 
-fn record(study: &Study, course: Course, trained: &[Trained]) -> TrainingRecord {
+fn record(study: &Study<'_>, course: Course, trained: &[Trained]) -> TrainingRecord {
     let shortest = trained.iter().map(|trained| trained.points.len()).min().unwrap_or(0);
     let run = |trained: &Trained| TrainingRun {
         seed: trained.seed,

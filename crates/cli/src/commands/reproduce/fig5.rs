@@ -24,7 +24,7 @@ const CONTESTANTS: [(Contestant, &str); 7] = [
     (GENETIC, "–"),
 ];
 
-pub(super) fn fig5(study: &mut Study, stem: &Path) -> Result<Outcome> {
+pub(super) fn fig5(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let vehicles = study.problem.vehicles();
     let mut found: Vec<(Contestant, &'static str, Vec<Vec<Score>>)> = CONTESTANTS
         .into_iter()

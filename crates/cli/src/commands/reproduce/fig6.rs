@@ -17,7 +17,7 @@ use std::path::Path;
 const STEPS_PERCENT: f64 = 70.0;
 const KEPT_PERCENT: f64 = 85.0;
 
-pub(super) fn fig6(study: &mut Study, stem: &Path) -> Result<Outcome> {
+pub(super) fn fig6(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let vehicles = study.problem.vehicles();
     let course = Course { process: Process::Sequential, preset: Preset::Ours, vehicles };
     let trained = study.trained(course)?;

@@ -12,7 +12,7 @@ use sonarfleet_learning::placement::paper::Process;
 use sonarfleet_report::write_scores;
 use std::path::Path;
 
-pub(super) fn fig7(study: &mut Study, stem: &Path) -> Result<Outcome> {
+pub(super) fn fig7(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let vehicles = study.problem.vehicles();
     let threshold = study.problem.connectivity_threshold();
     let more_vehicles = vehicles + vehicles.div_ceil(4); // the paper's 50 for 40

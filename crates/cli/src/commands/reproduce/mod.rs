@@ -5,6 +5,7 @@ mod fig4;
 mod fig5;
 mod fig6;
 mod fig7;
+mod incremental;
 mod score;
 mod study;
 mod training;
@@ -52,7 +53,7 @@ struct Findings {
 
 pub(crate) fn reproduce(args: &ReproduceArgs, manner: Manner) -> Result<()> {
     let mut figures =
-        if args.figures.is_empty() { Figure::ALL.to_vec() } else { args.figures.clone() };
+        if args.figures.is_empty() { Figure::PAPER.to_vec() } else { args.figures.clone() };
     figures.sort_unstable();
     figures.dedup();
     let mut study = Study::new(args, manner)?;
@@ -72,12 +73,13 @@ pub(crate) fn reproduce(args: &ReproduceArgs, manner: Manner) -> Result<()> {
         .with_context(|| format!("cannot make {}", args.output.display()))?;
     findings.save(&args.output)?;
     for figure in figures {
-        let (name, draw): (_, fn(&mut Study, &Path) -> Result<Outcome>) = match figure {
+        let (name, draw): (_, fn(&mut Study<'_>, &Path) -> Result<Outcome>) = match figure {
             Figure::Fig3 => ("fig3", fig3::fig3),
             Figure::Fig4 => ("fig4", fig4::fig4),
             Figure::Fig5 => ("fig5", fig5::fig5),
             Figure::Fig6 => ("fig6", fig6::fig6),
             Figure::Fig7 => ("fig7", fig7::fig7),
+            Figure::Incremental => ("incremental", incremental::incremental),
         };
         let outcome = draw(&mut study, &args.output.join(name))?;
         findings.table.extend(outcome.rows);
