@@ -10,7 +10,7 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Price {
     threshold: f64,
-    price: f64,
+    present: f64,
     lowest: f64,
     highest: f64,
 }
@@ -33,25 +33,26 @@ const FLOOR: f64 = 0.8;
 impl Price {
     /// The first price for a problem of so much `J_d` per vehicle.
     pub(super) fn new(threshold: f64, utility_per_vehicle: f64) -> Self {
-        let [price, lowest, highest] = [FIRST, LOWEST, HIGHEST].map(|it| it * utility_per_vehicle);
-        Self { threshold, price, lowest, highest }
+        let [present, lowest, highest] =
+            [FIRST, LOWEST, HIGHEST].map(|it| it * utility_per_vehicle);
+        Self { threshold, present, lowest, highest }
     }
 
     /// What a layout pays.
     pub(super) fn of(&self, connectivity: f64) -> f64 {
-        self.price * self.lack(connectivity)
+        self.present * self.lack(connectivity)
     }
 
     /// λ₂ at which a layout that can afford `slack` pays just that.
     pub(super) fn least_connectivity(&self, slack: f64) -> f64 {
-        self.threshold * (1.0 - slack / self.price).max(FLOOR)
+        self.threshold * (1.0 - slack / self.present).max(FLOOR)
     }
 
     /// Follows the connectivity that the search has.
     pub(super) fn adjust(&mut self, connectivity: f64) {
         let below = f64::from(u8::from(self.lack(connectivity) > 0.0));
         let factor = 1.0 + RATE * (below - SHARE_BELOW);
-        self.price = (self.price * factor).clamp(self.lowest, self.highest);
+        self.present = (self.present * factor).clamp(self.lowest, self.highest);
     }
 
     fn lack(&self, connectivity: f64) -> f64 {

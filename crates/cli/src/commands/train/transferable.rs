@@ -67,8 +67,11 @@ fn begin(args: &TrainPlacementArgs) -> Result<Training> {
 }
 
 /// The defaults, but for what the command line says.
-fn settings(args: &TrainPlacementArgs, defaults: TrainingSettings) -> TrainingSettings {
-    TrainingSettings { updates: args.updates.unwrap_or(defaults.updates), ..defaults }
+fn settings(args: &TrainPlacementArgs, mut defaults: TrainingSettings) -> TrainingSettings {
+    if let Some(updates) = args.updates {
+        defaults.updates = updates;
+    }
+    defaults
 }
 
 fn practice_tables(args: &TrainPlacementArgs, manner: Manner) -> Result<Vec<PracticeTable>> {
