@@ -79,7 +79,7 @@ pub(super) fn incremental(study: &mut Study<'_>, stem: &Path) -> Result<Outcome>
         })
         .collect();
     let chart = ChartRecord {
-        name: format!("When the ocean and the prior move on: {}", study.name),
+        name: format!("When the ocean and the prior move on from: {}", study.name),
         note: format!(
             "thin: {} seeds; bold: their median; best layout so far against auto's",
             study.seeds
@@ -182,20 +182,26 @@ fn reached(runs: &[Vec<Look>], reference: f64) -> String {
     )
 }
 
-/// The runs in percent of the reference; their median on common times.
+/// The runs in percent of the reference from their first feasible layout on; their
+/// median on common times, from when all have one.
 fn series(name: &str, runs: &[Vec<Look>], reference: f64, seconds: f64) -> SeriesRecord {
     const TIMES: usize = 120;
     let percent = |look: &Look| 100.0 * look.utility / reference;
-    let lines: Vec<Vec<[f64; 2]>> = runs
+    let found: Vec<Vec<Look>> = runs
         .iter()
-        .map(|run| run.iter().map(|look| [look.seconds, percent(look)]).collect())
+        .map(|run| run.iter().copied().filter(|look| look.utility > 0.0).collect())
         .collect();
-    let at = |run: &Vec<Look>, time: f64| {
-        run.iter().rfind(|look| look.seconds <= time).map_or(0.0, percent)
+    let at = |time: f64| -> Option<f64> {
+        let latest = |run: &Vec<Look>| run.iter().rfind(|look| look.seconds <= time).map(percent);
+        Some(median(found.iter().map(latest).collect::<Option<_>>()?))
     };
     let median = (0..=TIMES)
         .map(|k| seconds * k as f64 / TIMES as f64)
-        .map(|time| [time, median(runs.iter().map(|run| at(run, time)).collect())])
+        .filter_map(|time| at(time).map(|value| [time, value]))
         .collect();
-    SeriesRecord { name: name.into(), runs: lines, median }
+    let runs = found
+        .iter()
+        .map(|run| run.iter().map(|look| [look.seconds, percent(look)]).collect())
+        .collect();
+    SeriesRecord { name: name.into(), runs, median }
 }
