@@ -36,7 +36,7 @@ pub(super) fn sonar(
     };
     let noise_db = if happens(random, 0.6) { NOISE_DB } else { between(random, 55.0, 80.0) };
     let noise_level_db = if happens(random, 0.08) {
-        NoiseLevel::PerCell(uneven_noise_db(random, noise_db, grid))
+        NoiseLevel::PerCell(uneven_db(random, noise_db, grid))
     } else {
         NoiseLevel::Uniform(noise_db)
     };
@@ -68,8 +68,9 @@ pub(super) fn sonar(
     }))
 }
 
-/// Noise that grows from one side of the region to the other, by up to 8 dB.
-fn uneven_noise_db(random: &mut Stream, middle_db: f64, grid: &SurveillanceGrid) -> Vec<f64> {
+/// A level in every cell that grows from one side of the region to the other, by up to
+/// 8 dB.
+pub(super) fn uneven_db(random: &mut Stream, middle_db: f64, grid: &SurveillanceGrid) -> Vec<f64> {
     let [east_db, north_db] = [0, 1].map(|_| between(random, -4.0, 4.0));
     grid.cells()
         .map(|cell| grid.centre(cell))

@@ -2,8 +2,8 @@
 //! from the bottom, and speckled.
 
 use super::chance::{between, gamma, happens};
+use super::levels::uneven_db;
 use super::{LossCurve, PracticeTable, Symmetry};
-use crate::grid::CellId;
 use crate::random::Stream;
 use crate::sonar::transmission_loss::LARGEST_LOSS_DB;
 use rand::Rng;
@@ -67,47 +67,40 @@ fn deepen_shadows(table: &mut PracticeTable, edge_db: f32, by: f32) {
 /// Adds paths by way of a firm bottom, which reach everywhere at nearly the same level: it
 /// changes by a few decibels over the region, as the depth does, and from pair to pair.
 fn return_from_bottom(random: &mut Stream, table: &mut PracticeTable, level_db: f64) {
-    let grid = table.grid;
-    let [east_db, north_db] = [0, 1].map(|_| between(random, -4.0, 4.0));
+    let offsets_db = uneven_db(random, 0.0, &table.grid);
     let roughness_db = between(random, 0.3, 2.0);
-    let offsets_db: Vec<f64> = grid
-        .cells()
-        .map(|cell| grid.centre(cell))
-        .map(|centre| {
-            east_db * (centre.east_m / grid.width_m() - 0.5)
-                + north_db * (centre.north_m / grid.height_m() - 0.5)
-        })
-        .collect();
-    let cells = grid.cell_count();
-    for source in grid.cells() {
-        for target in (0..=source.0).map(CellId) {
-            let change_db = between(random, -roughness_db, roughness_db);
-            let trend_db = f64::midpoint(offsets_db[source.0], offsets_db[target.0]);
-            let bottom = 10f64.powf(-0.1 * (level_db + trend_db + change_db));
-            let ways = [source.0 * cells + target.0, target.0 * cells + source.0];
-            for &way in &ways[..if source == target { 1 } else { 2 }] {
-                let loss = &mut table.loss_db[way];
-                if *loss < LARGEST_LOSS_DB {
-                    *loss = (-10.0 * (10f64.powf(-0.1 * f64::from(*loss)) + bottom).log10()) as f32;
-                }
-            }
-        }
-    }
+    change_pairs(table, |source, target| {
+        let change_db = between(random, -roughness_db, roughness_db);
+        let trend_db = f64::midpoint(offsets_db[source], offsets_db[target]);
+        let bottom = 10f64.powf(-0.1 * (level_db + trend_db + change_db));
+        move |loss| (-10.0 * (10f64.powf(-0.1 * f64::from(loss)) + bottom).log10()) as f32
+    });
 }
 
-/// What several coherent arrivals do to a table: every pair of cells has its own chance,
-/// the same in both directions. The intensity is that of the table times a gamma variable
-/// of mean 1.
+/// What several coherent arrivals do to a table: every pair of cells has its own chance.
+/// The intensity is that of the table times a gamma variable of mean 1.
 fn speckle(random: &mut Stream, table: &mut PracticeTable, shape: f64) {
+    change_pairs(table, |_, _| {
+        let change_db = (10.0 * gamma(random, shape).log10()) as f32;
+        move |loss| loss - change_db
+    });
+}
+
+/// Changes the losses of every pair of cells, alike in both directions; what lies in the
+/// ground stays there.
+fn change_pairs<C: Fn(f32) -> f32>(
+    table: &mut PracticeTable,
+    mut change_of: impl FnMut(usize, usize) -> C,
+) {
     let cells = table.grid.cell_count();
     for source in 0..cells {
         for target in 0..=source {
-            let change_db = (10.0 * gamma(random, shape).log10()) as f32;
+            let change = change_of(source, target);
             let ways = [source * cells + target, target * cells + source];
             for &way in &ways[..if source == target { 1 } else { 2 }] {
                 let loss = &mut table.loss_db[way];
                 if *loss < LARGEST_LOSS_DB {
-                    *loss = (*loss - change_db).min(LARGEST_LOSS_DB);
+                    *loss = change(*loss).min(LARGEST_LOSS_DB);
                 }
             }
         }
