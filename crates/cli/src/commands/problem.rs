@@ -65,6 +65,13 @@ impl ProblemSource<'_> {
         if self.loss.is_some() || self.communication_loss.is_some() {
             bail!("tables go with a scenario; {} holds its own", path.display());
         }
+        if self.epoch > 0 {
+            bail!(
+                "epoch {}: {} is an instance, which has epoch 0 only",
+                self.epoch,
+                path.display()
+            );
+        }
         let section = PlacementSection::default();
         let defaults =
             Defaults { method: section.method.parse()?, evaluations: section.evaluations, seed: 1 };

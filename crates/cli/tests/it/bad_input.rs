@@ -130,6 +130,8 @@ fn files_of_the_other_commands() {
         let complaint = fail(home, &[command, "not.npz"]);
         assert!(complaint.contains("not.npz"), "{complaint}");
     }
+    let complaint = fail(home, &["place", "not.npz", "--epoch", "2"]);
+    assert!(complaint.contains("not.npz") && complaint.contains("epoch 0 only"), "{complaint}");
     write(home, "test.toml", SCENARIO);
     let complaint = fail(home, &["tl", "test.toml", "--output", "tl.txt"]);
     assert!(complaint.contains("tl.txt"), "{complaint}");

@@ -37,6 +37,22 @@ fn a_figure_comes_with_its_table_and_its_numbers() {
 }
 
 #[test]
+fn training_goes_on_in_the_next_epoch_where_there_is_one() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    write(home, "test.toml", SCENARIO);
+    let arguments = [&["reproduce", "incremental"], &SHORT[..]].concat();
+    let found = json(home, &arguments);
+    assert_eq!(found["table"].as_array().unwrap().len(), 5);
+    for series in found["figures"]["incremental"]["panels"][0]["series"].as_array().unwrap() {
+        assert_eq!(series["runs"].as_array().unwrap().len(), 2);
+    }
+    write(home, "test.toml", &SCENARIO.replace("epochs = 2", "epochs = 1"));
+    let complaint = fail(home, &arguments);
+    assert!(complaint.contains("epochs 0 to 0"), "{complaint}");
+}
+
+#[test]
 fn mistakes_are_said_before_anything_is_trained() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();

@@ -6,7 +6,6 @@ use super::training::{self, Course};
 use super::{Outcome, Row};
 use crate::args::Preset;
 use anyhow::Result;
-use sonarfleet::placement::mdp::SequentialMdp;
 use sonarfleet::record::ScoresRecord;
 use sonarfleet_learning::placement::paper::Process;
 use sonarfleet_report::write_scores;
@@ -21,8 +20,7 @@ pub(super) fn fig7(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
     let exchange = course(Process::Exchange, vehicles);
 
     let larger_problem = study.with(more_vehicles, threshold)?;
-    let mut mdp = SequentialMdp::new(&larger_problem);
-    mdp.link_mask = larger.settings().link_mask;
+    let mdp = larger.settings().sequential_mdp(&larger_problem);
     let cut: Vec<Score> = study
         .trained(larger)?
         .iter()

@@ -6,7 +6,6 @@ use super::{Outcome, Row, score};
 use crate::args::Preset;
 use anyhow::Result;
 use sonarfleet::placement::PlacementProblem;
-use sonarfleet::placement::mdp::SequentialMdp;
 use sonarfleet::record::{ChartRecord, PanelRecord, SeriesRecord, median};
 use sonarfleet_learning::placement::paper::{PaperPolicy, PlacementTrainer, Process};
 use sonarfleet_learning::placement::transferable::{
@@ -31,11 +30,18 @@ struct Look {
     utility: f64,
 }
 
+impl Look {
+    fn percent(&self, reference: f64) -> f64 {
+        100.0 * self.utility / reference
+    }
+}
+
 pub(super) fn incremental(study: &mut Study<'_>, stem: &Path) -> Result<Outcome> {
+    // First, as where there is none, that is to be known before any training.
+    let next = study.next_epoch()?;
     let vehicles = study.problem.vehicles();
     let course = Course { process: Process::Sequential, preset: Preset::Ours, vehicles };
     let before = study.trained(course)?;
-    let next = study.next_epoch()?;
     let seconds = study.seconds;
     let reference = score::utility(&scores(&study.solve(AUTO, &next)?));
 
@@ -50,17 +56,13 @@ pub(super) fn incremental(study: &mut Study<'_>, stem: &Path) -> Result<Outcome>
     .to_vec();
     for (seed, trained) in (1..=study.seeds).zip(before.iter()) {
         let _bar = study.bar("Next epoch", seed);
-        let tuned = {
-            let fine = TrainingSettings::fine_tuning(seed);
-            let mut training = Training::improving(TransferablePolicy::shipped().network, fine);
-            transferable(&mut training, &study.problem, seconds);
-            training.network()
-        };
         let from = |network| Training::improving(network, TrainingSettings::fine_tuning(seed));
+        let mut tuned = from(TransferablePolicy::shipped().network);
+        transferable(&mut tuned, &study.problem, seconds);
         let mut trainings = [
             Training::new(TrainingSettings::one_problem_untaught(seed)),
             from(TransferablePolicy::shipped().network),
-            from(tuned),
+            from(tuned.network()),
         ];
         ways[0].1.push(sequential(&next, course, None, seconds, seed)?);
         ways[1].1.push(sequential(&next, course, Some(&trained.policy), seconds, seed)?);
@@ -109,11 +111,10 @@ fn sequential(
     seed: u64,
 ) -> Result<Vec<Look>> {
     let settings = course.settings();
-    let mut mdp = SequentialMdp::new(problem);
-    mdp.link_mask = settings.link_mask;
+    let mdp = settings.sequential_mdp(problem);
     let mut trainer = match from {
         Some(policy) => PlacementTrainer::fine_tune(mdp, &settings, policy, seed)?,
-        None => PlacementTrainer::sequential(problem, &settings, seed)?,
+        None => PlacementTrainer::new(mdp, &settings, seed)?,
     };
     let started = Instant::now();
     let mut looks = Vec::new();
@@ -162,14 +163,13 @@ fn best_placed(network: Network, problem: &PlacementProblem, seed: u64) -> f64 {
 /// "12 s and 3 updates (3 of 3 seeds)", medians over the seeds that got there, or how
 /// far they came.
 fn reached(runs: &[Vec<Look>], reference: f64) -> String {
-    let goal = 0.01 * GOAL_PERCENT * reference;
     let there: Vec<Look> = runs
         .iter()
-        .filter_map(|run| run.iter().find(|look| look.utility >= goal))
+        .filter_map(|run| run.iter().find(|look| look.percent(reference) >= GOAL_PERCENT))
         .copied()
         .collect();
-    let percent = |look: &Look| 100.0 * look.utility / reference;
-    let last = median(runs.iter().filter_map(|run| run.last()).map(percent).collect());
+    let ends = runs.iter().filter_map(|run| run.last());
+    let last = median(ends.map(|look| look.percent(reference)).collect());
     if there.is_empty() {
         return format!("not reached: {last:.1} % in the end");
     }
@@ -186,7 +186,7 @@ fn reached(runs: &[Vec<Look>], reference: f64) -> String {
 /// median on common times, from when all have one.
 fn series(name: &str, runs: &[Vec<Look>], reference: f64, seconds: f64) -> SeriesRecord {
     const TIMES: usize = 120;
-    let percent = |look: &Look| 100.0 * look.utility / reference;
+    let percent = |look: &Look| look.percent(reference);
     let found: Vec<Vec<Look>> = runs
         .iter()
         .map(|run| run.iter().copied().filter(|look| look.utility > 0.0).collect())

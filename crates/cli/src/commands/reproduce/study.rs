@@ -7,7 +7,7 @@ use crate::args::ReproduceArgs;
 use crate::commands::problem::ProblemSource;
 use crate::commands::{Manner, methods};
 use crate::progress::Progress;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use sonarfleet::grid::CellId;
 use sonarfleet::placement::{Budget, Method, PlacementInput, PlacementProblem};
 use std::rc::Rc;
@@ -64,7 +64,7 @@ pub(super) struct Solved {
 
 /// The problem and what is known of it so far.
 pub(super) struct Study<'a> {
-    args: &'a ReproduceArgs,
+    source: ProblemSource<'a>,
     manner: Manner,
     /// The problem in words.
     pub(super) name: String,
@@ -83,19 +83,25 @@ impl<'a> Study<'a> {
             || "Embedded scenario, epoch 0".to_owned(),
             |path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
         );
-        let (input, _) = source(args, 0).input(manner)?;
+        let source = ProblemSource {
+            input: args.input.as_deref(),
+            epoch: 0,
+            count: None,
+            threshold: None,
+            loss: None,
+            communication_loss: None,
+            cache: &args.cache,
+        };
+        let (input, _) = source.input(manner)?;
         let problem = PlacementProblem::new(&input).with_context(|| name.clone())?;
         let (seeds, seconds) = (args.seeds, args.seconds);
-        Ok(Self { args, manner, name, input, problem, seeds, seconds, trained: Vec::new() })
+        Ok(Self { source, manner, name, input, problem, seeds, seconds, trained: Vec::new() })
     }
 
     /// The problem when the ocean and the prior have moved on.
     pub(super) fn next_epoch(&self) -> Result<PlacementProblem> {
-        let path = self.args.input.as_deref();
-        if let Some(path) = path.filter(|path| path.extension() == Some("npz".as_ref())) {
-            bail!("{}: an instance has one epoch; give a scenario of two", path.display());
-        }
-        Ok(source(self.args, 1).problem(self.manner)?.0)
+        let source = ProblemSource { epoch: 1, ..self.source };
+        Ok(source.problem(self.manner)?.0)
     }
 
     /// The problem for another fleet or another required connectivity.
@@ -144,18 +150,6 @@ impl<'a> Study<'a> {
     pub(super) fn bar(&self, what: &str, seed: u64) -> Progress {
         let quiet = !self.manner.talkative();
         Progress::new(&format!("{what}, seed {seed} of {}", self.seeds), quiet)
-    }
-}
-
-fn source(args: &ReproduceArgs, epoch: usize) -> ProblemSource<'_> {
-    ProblemSource {
-        input: args.input.as_deref(),
-        epoch,
-        count: None,
-        threshold: None,
-        loss: None,
-        communication_loss: None,
-        cache: &args.cache,
     }
 }
 

@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sonarfleet::placement::PlacementProblem;
-use sonarfleet::placement::mdp::{ExchangeMdp, PlacementMdp, SequentialMdp};
+use sonarfleet::placement::mdp::{ExchangeMdp, PlacementMdp};
 use sonarfleet_learning::files::{checkpoint, write_whole};
 use sonarfleet_learning::placement::paper::{
     PaperPolicy, PaperSettings, PlacementTrainer, PlacementTrainerState, Process,
@@ -45,11 +45,7 @@ pub(super) fn train(args: &TrainPlacementArgs, process: Process, manner: Manner)
     };
     match process {
         Process::Sequential => {
-            let mdp = || {
-                let mut mdp = SequentialMdp::new(&problem);
-                mdp.link_mask = settings.link_mask;
-                mdp
-            };
+            let mdp = || settings.sequential_mdp(&problem);
             train_on(args, "training/placement/sequential-ppo", mdp, &settings, &problem, manner)
         }
         Process::Exchange => {

@@ -3,7 +3,8 @@
 use crate::network::Mlp;
 use crate::ppo::PpoSettings;
 use serde::{Deserialize, Serialize};
-use sonarfleet::placement::mdp::LinkMask;
+use sonarfleet::placement::PlacementProblem;
+use sonarfleet::placement::mdp::{LinkMask, SequentialMdp};
 
 /// Settings of the paper's placement policies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -77,6 +78,13 @@ impl PaperSettings {
             reward_scale: 0.2,
             ..Self::paper()
         }
+    }
+
+    /// The sequential process under these settings.
+    pub fn sequential_mdp<'p>(&self, problem: &'p PlacementProblem) -> SequentialMdp<'p> {
+        let mut mdp = SequentialMdp::new(problem);
+        mdp.link_mask = self.link_mask;
+        mdp
     }
 
     /// The network for so many cells.

@@ -3,7 +3,7 @@
 use super::settings::PaperSettings;
 use super::trainer::{PlacementTrainer, PlacementUpdate};
 use crate::ppo::BadSettings;
-use sonarfleet::placement::mdp::{ExchangeMdp, PlacementMdp, SequentialMdp};
+use sonarfleet::placement::mdp::{ExchangeMdp, PlacementMdp};
 use sonarfleet::placement::solver::Meter;
 use sonarfleet::placement::{Budget, Placement, PlacementProblem, Solver};
 use std::fmt;
@@ -95,11 +95,7 @@ impl Solver for PaperPpo {
 
     fn solve(&self, problem: &PlacementProblem, budget: Budget, seed: u64) -> Placement {
         match self.process {
-            Process::Sequential => {
-                let mut mdp = SequentialMdp::new(problem);
-                mdp.link_mask = self.settings.link_mask;
-                self.train(mdp, budget, seed)
-            }
+            Process::Sequential => self.train(self.settings.sequential_mdp(problem), budget, seed),
             Process::Exchange => self.train(ExchangeMdp::new(problem), budget, seed),
         }
     }

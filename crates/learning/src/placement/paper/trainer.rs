@@ -84,9 +84,7 @@ impl<'p> PlacementTrainer<SequentialMdp<'p>> {
         settings: &PaperSettings,
         seed: u64,
     ) -> Result<Self, BadSettings> {
-        let mut mdp = SequentialMdp::new(problem);
-        mdp.link_mask = settings.link_mask;
-        Self::new(mdp, settings, seed)
+        Self::new(settings.sequential_mdp(problem), settings, seed)
     }
 }
 

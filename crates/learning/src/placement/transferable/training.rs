@@ -86,11 +86,12 @@ impl TrainingSettings {
     /// is left of about four minutes for improvement.
     pub fn one_problem(seed: u64) -> Self {
         Self {
+            seed,
             taught: 24,
             imitation_updates: 120,
             updates: 300,
             aims: [0.95, 1.1],
-            ..Self { seed, ..Self::default() }
+            ..Self::default()
         }
     }
 
