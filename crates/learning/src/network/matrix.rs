@@ -12,7 +12,6 @@
 
 use super::vector::{add_scaled, dot, wide};
 use pulp::{Arch, Simd, WithSimd};
-use rayon::prelude::*;
 
 /// Columns of a packed panel.
 const WIDTH: usize = 32;
@@ -106,7 +105,7 @@ pub(crate) struct Factor<'a> {
     bias: &'a [f32],
     /// [panel, row, column of the panel], the bias above the matrix's rows, filled up
     /// with zeros; empty where products have few rows.
-    panels: Vec<f32>,
+    panels: Aligned,
 }
 
 impl<'a> Factor<'a> {
@@ -118,49 +117,73 @@ impl<'a> Factor<'a> {
     /// A matrix prepared for products with so many rows at a time, to each of which the
     /// bias is added.
     pub(crate) fn with_bias(matrix: Matrix<'a>, bias: &'a [f32], rows: usize) -> Self {
-        let mut panels = Vec::new();
-        if rows > FEW_ROWS {
-            let length = (matrix.rows + 1) * WIDTH;
-            panels.resize(matrix.columns.div_ceil(WIDTH) * length, 0.0);
-            panels.par_chunks_exact_mut(length).enumerate().with_min_len(8).for_each(
-                |(index, panel)| {
-                    let (first, rest) = panel.split_at_mut(WIDTH);
-                    let columns = index * WIDTH..bias.len().min((index + 1) * WIDTH);
-                    for (value, bias) in first.iter_mut().zip(bias.get(columns).unwrap_or(&[])) {
-                        *value = *bias;
-                    }
-                    pack_panel(&matrix, index * WIDTH, rest);
-                },
-            );
+        if rows <= FEW_ROWS {
+            return Self { matrix, bias, panels: Aligned::default() };
+        }
+        let length = (matrix.rows + 1) * WIDTH;
+        let mut panels = Aligned::with_capacity(matrix.columns.div_ceil(WIDTH) * length);
+        for first in (0..matrix.columns).step_by(WIDTH) {
+            let mut row = [0.0; WIDTH];
+            let end = (first + WIDTH).min(bias.len());
+            for (value, bias) in row.iter_mut().zip(bias.get(first..end).unwrap_or(&[])) {
+                *value = *bias;
+            }
+            panels.room.extend_from_slice(&row);
+            pack_panel(&matrix, first, &mut panels.room);
         }
         Self { matrix, bias, panels }
     }
 }
 
-/// Copies up to [`WIDTH`] columns to a panel.
-fn pack_panel(matrix: &Matrix<'_>, first: usize, panel: &mut [f32]) {
+/// Values that start where a cache line does: a vector that straddles two lines takes
+/// twice as long to load.
+#[derive(Debug, Default)]
+struct Aligned {
+    room: Vec<f32>,
+    start: usize,
+}
+
+impl Aligned {
+    /// Values in a cache line.
+    const LINE: usize = 16;
+
+    fn with_capacity(length: usize) -> Self {
+        let mut room: Vec<f32> = Vec::with_capacity(length + Self::LINE - 1);
+        let start = room.as_ptr().align_offset(Self::LINE * size_of::<f32>()).min(Self::LINE - 1);
+        room.resize(start, 0.0);
+        Self { room, start }
+    }
+
+    const fn is_empty(&self) -> bool {
+        self.room.is_empty()
+    }
+
+    fn values(&self) -> &[f32] {
+        &self.room[self.start..]
+    }
+}
+
+/// Appends up to [`WIDTH`] columns of a matrix as a panel.
+fn pack_panel(matrix: &Matrix<'_>, first: usize, panel: &mut Vec<f32>) {
     let count = WIDTH.min(matrix.columns - first);
-    let (rows, _) = panel.as_chunks_mut::<WIDTH>();
     if matrix.column_step == 1 {
-        for (index, row) in rows.iter_mut().enumerate() {
-            let values = &matrix.row(index)[first..first + count];
-            if let Some(values) = values.as_array() {
-                *row = *values;
-            } else {
-                row[..count].copy_from_slice(values);
-            }
+        for index in 0..matrix.rows {
+            panel.extend_from_slice(&matrix.row(index)[first..first + count]);
+            panel.resize(panel.len() + WIDTH - count, 0.0);
         }
         return;
     }
     // Blocks that stay in the cache while their columns are gone through.
     const BLOCK: usize = 16;
-    for (block, rows) in rows.chunks_mut(BLOCK).enumerate() {
+    for start in (0..matrix.rows).step_by(BLOCK) {
+        let mut rows = [[0.0; WIDTH]; BLOCK];
         for column in 0..count {
-            let start = (first + column) * matrix.column_step + block * BLOCK;
-            for (row, value) in rows.iter_mut().zip(&matrix.values[start..]) {
+            let values = &matrix.values[(first + column) * matrix.column_step + start..];
+            for (row, value) in rows.iter_mut().zip(values) {
                 row[column] = *value;
             }
         }
+        panel.extend_from_slice(rows[..BLOCK.min(matrix.rows - start)].as_flattened());
     }
 }
 
@@ -219,7 +242,7 @@ impl Product<'_, '_> {
             pack_strip(left, first, strip);
         }
         for (panel, first) in
-            right.panels.chunks_exact((inner + 1) * WIDTH).zip((0..).step_by(WIDTH))
+            right.panels.values().chunks_exact((inner + 1) * WIDTH).zip((0..).step_by(WIDTH))
         {
             let (panel, _) = S::as_simd_f32s(panel);
             let (panel, _) = panel.as_chunks::<V>();
@@ -228,26 +251,28 @@ impl Product<'_, '_> {
             let mut rows = out.values.chunks_mut(out.row_step).take(left.rows);
             for strip in strips.chunks_exact(inner) {
                 for (sums, row) in tile::<S, R, V>(simd, strip, bias, panel).iter().zip(&mut rows) {
-                    let mut flat = [0.0; WIDTH];
-                    let (vectors, _) = S::as_mut_simd_f32s(&mut flat);
-                    vectors.copy_from_slice(sums);
-                    let row = &mut row[first..first + count];
-                    if let Some(row) = row.as_mut_array::<WIDTH>() {
-                        put(row, &flat, add);
-                    } else {
-                        put(row, &flat, add);
-                    }
+                    put::<S, V>(simd, &mut row[first..first + count], sums, add);
                 }
             }
         }
     }
 }
 
-/// Adds values or puts them in their place; for whole arrays without a loop.
+/// Adds sums to up to [`WIDTH`] values or puts them in their place.
 #[inline(always)]
-fn put(row: &mut [f32], values: &[f32; WIDTH], add: bool) {
-    for (out, value) in row.iter_mut().zip(values) {
-        *out = if add { *out + value } else { *value };
+fn put<S: Simd, const V: usize>(simd: S, row: &mut [f32], sums: &[S::f32s; V], add: bool) {
+    if row.len() == WIDTH {
+        let (vectors, _) = S::as_mut_simd_f32s(row);
+        for (out, sum) in vectors.iter_mut().zip(sums) {
+            *out = if add { simd.add_f32s(*out, *sum) } else { *sum };
+        }
+    } else {
+        let mut flat = [0.0; WIDTH];
+        let (vectors, _) = S::as_mut_simd_f32s(&mut flat);
+        vectors.copy_from_slice(sums);
+        for (out, value) in row.iter_mut().zip(flat) {
+            *out = if add { *out + value } else { value };
+        }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Gradients of the whole loss against central differences of the same loss written
 //! out in double precision.
 
+use super::gradient::{Learner, Shards};
 use super::loss::{Losses, Targets, loss};
+use super::rollout::{Rollout, Trajectory};
 use super::settings::PpoSettings;
 use crate::network::{ActorCritic, Batch, Mlp, Output, Recurrent, Sequence};
 use rand::Rng;
@@ -73,6 +75,53 @@ impl Data {
     }
 }
 
+/// A minibatch of several shards, in another order than the rollout's, against a single
+/// pass over the same rows.
+#[test]
+fn shards_add_up_to_the_minibatch() {
+    let network = Mlp { inputs: 7, hidden: vec![6, 5], actions: 4 };
+    let mut data = Data::new(&network, 700, 1);
+    let settings = PpoSettings::paper_placement();
+    let weights = network.initialise(&mut stream(5, "test/weights", 0));
+    let trajectory = Trajectory {
+        observations: data.observations.concat(),
+        masks: data.targets.mask.clone(),
+        actions: data.targets.actions.clone(),
+        log_probabilities: data.targets.log_probabilities.clone(),
+        values: data.targets.values.clone(),
+        starts: data.starts.concat(),
+        advantages: data.targets.advantages.clone(),
+        returns: data.targets.returns.clone(),
+        ..Trajectory::default()
+    };
+    let rollout = Rollout { trajectories: &[trajectory], steps: 1, per_trajectory: 700 };
+    let (weights, settings) = (&weights[..], &settings);
+    let learner = Learner { network: &network, weights, settings, ent_coef: ENT_COEF, rollout };
+    let sequences: Vec<usize> = (0..700).map(|k| k * 387 % 700).collect();
+    let mut shards = Shards::default();
+    let (found, gradient) = learner.gradient(&sequences, &mut shards);
+
+    let advantages = wide(&data.targets.advantages);
+    let mean = advantages.iter().sum::<f64>() / 700.0;
+    let variance = advantages.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / 699.0;
+    for (standardised, advantage) in data.targets.advantages.iter_mut().zip(&advantages) {
+        *standardised = ((advantage - mean) / variance.sqrt()) as f32;
+    }
+    let batch = data.batch();
+    let (mut activations, mut output) = Default::default();
+    network.forward(weights, &batch, &mut activations, &mut output);
+    let losses = loss(settings, ENT_COEF, 1.0 / 700.0, &data.targets, &mut output);
+    let mut expected = vec![0.0; weights.len()];
+    network.backward(weights, &batch, &mut activations, &output, &mut expected);
+    assert!((found.policy_loss - losses.policy_loss).abs() < ROUNDING);
+    assert!((found.value_loss - losses.value_loss).abs() < ROUNDING);
+    let largest = expected.iter().fold(0.0_f32, |most, slope| most.max(slope.abs()));
+    for (found, expected) in gradient.iter().zip(&expected) {
+        let error = f64::from((found - expected).abs());
+        assert!(error < ROUNDING * f64::from(largest), "{found}, in one pass {expected}");
+    }
+}
+
 /// Checks every weight's slope; `reference` gives logits and value of every row.
 fn check<N: ActorCritic>(
     network: &N,
@@ -87,7 +136,8 @@ fn check<N: ActorCritic>(
     let batch = data.batch();
     let (mut activations, mut output) = (N::Activations::default(), Output::default());
     network.forward(&weights, &batch, &mut activations, &mut output);
-    let losses = loss(&settings, ENT_COEF, &data.targets, &mut output);
+    let share = 1.0 / batch.len() as f32;
+    let losses = loss(&settings, ENT_COEF, share, &data.targets, &mut output);
     let mut gradient = vec![f32::NAN; weights.len()];
     network.backward(&weights, &batch, &mut activations, &output, &mut gradient);
 

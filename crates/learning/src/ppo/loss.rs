@@ -57,6 +57,11 @@ pub struct Losses {
 impl Losses {
     /// The mean of several.
     pub(super) fn mean(all: &[Self]) -> Self {
+        Self::sum(all).scaled(1.0 / all.len().max(1) as f64)
+    }
+
+    /// The sum of several.
+    pub(super) fn sum<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut sum = Self::default();
         for one in all {
             sum.policy_loss += one.policy_loss;
@@ -66,7 +71,7 @@ impl Losses {
             sum.clip_fraction += one.clip_fraction;
             sum.gradient_norm += one.gradient_norm;
         }
-        sum.scaled(1.0 / all.len().max(1) as f64)
+        sum
     }
 
     fn scaled(self, factor: f64) -> Self {
@@ -86,16 +91,16 @@ const ROWS_PER_TASK: usize = 64;
 
 /// Turns a network's outputs into the gradient of
 /// `policy_loss` − `ent_coef` · `entropy` + `vf_coef` · `value_loss`
-/// in them, and gives the means of its parts.
+/// in them, and gives what these rows add to the means of its parts. `share` is that of
+/// one row in the minibatch.
 pub(super) fn loss(
     settings: &PpoSettings,
     ent_coef: f32,
+    share: f32,
     targets: &Targets,
     output: &mut Output,
 ) -> Losses {
-    let rows = output.values.len();
-    let actions = output.logits.len() / rows;
-    let share = 1.0 / rows as f32;
+    let actions = output.logits.len() / output.values.len();
     let parts: Vec<Losses> = output
         .logits
         .par_chunks_mut(ROWS_PER_TASK * actions)
@@ -126,8 +131,7 @@ pub(super) fn loss(
             sum
         })
         .collect();
-    let all = parts.len() as f64;
-    Losses::mean(&parts).scaled(all / rows as f64)
+    Losses::sum(&parts).scaled(f64::from(share))
 }
 
 struct Action {

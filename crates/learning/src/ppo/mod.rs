@@ -3,6 +3,7 @@
 
 mod advantage;
 mod environment;
+mod gradient;
 #[cfg(test)]
 mod gradient_tests;
 mod loss;

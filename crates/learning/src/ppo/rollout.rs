@@ -40,23 +40,23 @@ impl<S> Player<S> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trajectory {
     /// [step, observation]
-    observations: Vec<f32>,
+    pub(super) observations: Vec<f32>,
     /// [step, action]
-    masks: Vec<bool>,
-    actions: Vec<usize>,
-    log_probabilities: Vec<f32>,
-    values: Vec<f32>,
-    rewards: Vec<f32>,
+    pub(super) masks: Vec<bool>,
+    pub(super) actions: Vec<usize>,
+    pub(super) log_probabilities: Vec<f32>,
+    pub(super) values: Vec<f32>,
+    pub(super) rewards: Vec<f32>,
     /// Estimated return after the step: 0 where the episode terminated.
-    next_values: Vec<f32>,
+    pub(super) next_values: Vec<f32>,
     /// Whether the episode ended with the step.
-    ended: Vec<bool>,
+    pub(super) ended: Vec<bool>,
     /// Whether the episode started with the step.
-    starts: Vec<bool>,
+    pub(super) starts: Vec<bool>,
     /// Memory before each sequence, [sequence, state].
-    memories: Vec<f32>,
-    advantages: Vec<f32>,
-    returns: Vec<f32>,
+    pub(super) memories: Vec<f32>,
+    pub(super) advantages: Vec<f32>,
+    pub(super) returns: Vec<f32>,
 }
 
 /// Environments that one task plays, whatever the number of threads.
@@ -297,44 +297,79 @@ impl Trajectory {
     }
 }
 
-/// The batch of some sequences of a rollout, numbered over all environments, and what
-/// its loss is computed from.
-pub(super) fn minibatch<'a, N: ActorCritic>(
-    network: &N,
-    settings: &PpoSettings,
-    trajectories: &'a [Trajectory],
-    sequences: &[usize],
-    targets: &mut Targets,
-) -> Batch<'a> {
-    let steps = settings.sequence_length;
-    let per_trajectory = settings.num_steps / steps;
-    let actions = network.actions();
-    targets.clear();
-    let mut batch = Batch { steps, sequences: Vec::with_capacity(sequences.len()) };
-    for &number in sequences {
-        let (trajectory, index) = (&trajectories[number / per_trajectory], number % per_trajectory);
-        batch.sequences.push(trajectory.sequence(network, index, steps));
-        let rows = index * steps..(index + 1) * steps;
-        targets.mask.extend_from_slice(&trajectory.masks[rows.start * actions..rows.end * actions]);
-        targets.actions.extend_from_slice(&trajectory.actions[rows.clone()]);
-        targets.log_probabilities.extend_from_slice(&trajectory.log_probabilities[rows.clone()]);
-        targets.advantages.extend_from_slice(&trajectory.advantages[rows.clone()]);
-        targets.returns.extend_from_slice(&trajectory.returns[rows.clone()]);
-        targets.values.extend_from_slice(&trajectory.values[rows]);
-    }
-    if settings.norm_adv {
-        standardise(&mut targets.advantages);
-    }
-    batch
+/// A rollout of several environments, whose sequences are numbered over all of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rollout<'a> {
+    pub(super) trajectories: &'a [Trajectory],
+    /// Steps of a sequence.
+    pub(super) steps: usize,
+    /// Sequences of a trajectory.
+    pub(super) per_trajectory: usize,
 }
 
-/// Shifts and scales values to mean 0 and standard deviation 1.
-fn standardise(values: &mut [f32]) {
-    let count = values.len() as f64;
-    let mean = values.iter().map(|&value| f64::from(value)).sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|&value| (f64::from(value) - mean).powi(2)).sum();
-    let deviation = (squares / (count - 1.0).max(1.0)).sqrt() + 1e-8;
-    for value in values {
-        *value = ((f64::from(*value) - mean) / deviation) as f32;
+impl<'a> Rollout<'a> {
+    /// The trajectory of a sequence, and the sequence's number in it.
+    const fn find(&self, sequence: usize) -> (&'a Trajectory, usize) {
+        (&self.trajectories[sequence / self.per_trajectory], sequence % self.per_trajectory)
+    }
+
+    /// What the network sees in some sequences.
+    pub(super) fn batch<N: ActorCritic>(&self, network: &N, sequences: &[usize]) -> Batch<'a> {
+        let sequences = sequences.iter().map(|&sequence| {
+            let (trajectory, index) = self.find(sequence);
+            trajectory.sequence(network, index, self.steps)
+        });
+        Batch { steps: self.steps, sequences: sequences.collect() }
+    }
+
+    /// What the loss of some sequences is computed from, with advantages on a scale.
+    pub(super) fn fill_targets(&self, sequences: &[usize], scale: Scale, targets: &mut Targets) {
+        targets.clear();
+        for &sequence in sequences {
+            let (trajectory, index) = self.find(sequence);
+            let actions = trajectory.masks.len() / trajectory.actions.len();
+            let rows = index * self.steps..(index + 1) * self.steps;
+            let allowed = &trajectory.masks[rows.start * actions..rows.end * actions];
+            targets.mask.extend_from_slice(allowed);
+            targets.actions.extend_from_slice(&trajectory.actions[rows.clone()]);
+            let log_probabilities = &trajectory.log_probabilities[rows.clone()];
+            targets.log_probabilities.extend_from_slice(log_probabilities);
+            let advantages = trajectory.advantages[rows.clone()].iter();
+            targets.advantages.extend(advantages.map(|&advantage| scale.apply(advantage)));
+            targets.returns.extend_from_slice(&trajectory.returns[rows.clone()]);
+            targets.values.extend_from_slice(&trajectory.values[rows]);
+        }
+    }
+
+    /// The scale on which the advantages of some sequences have mean 0 and standard
+    /// deviation 1.
+    pub(super) fn advantage_scale(&self, sequences: &[usize]) -> Scale {
+        let advantages = || {
+            sequences.iter().flat_map(|&sequence| {
+                let (trajectory, index) = self.find(sequence);
+                let rows = index * self.steps..(index + 1) * self.steps;
+                trajectory.advantages[rows].iter().map(|&advantage| f64::from(advantage))
+            })
+        };
+        let count = (sequences.len() * self.steps) as f64;
+        let mean = advantages().sum::<f64>() / count;
+        let squares: f64 = advantages().map(|advantage| (advantage - mean).powi(2)).sum();
+        Scale { origin: mean, unit: (squares / (count - 1.0).max(1.0)).sqrt() + 1e-8 }
+    }
+}
+
+/// A linear scale.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    origin: f64,
+    unit: f64,
+}
+
+impl Scale {
+    /// The scale on which everything is what it is.
+    pub(super) const PLAIN: Self = Self { origin: 0.0, unit: 1.0 };
+
+    fn apply(self, value: f32) -> f32 {
+        ((f64::from(value) - self.origin) / self.unit) as f32
     }
 }

@@ -1,10 +1,11 @@
 //! Proximal policy optimisation (Schulman et al. 2017, arXiv:1707.06347).
 
 use super::environment::{Environment, Episode};
-use super::loss::{Losses, Targets, loss};
-use super::rollout::{Player, Trajectory, minibatch, play};
+use super::gradient::{Learner, Shards};
+use super::loss::Losses;
+use super::rollout::{Player, Rollout, Trajectory, play};
 use super::settings::{BadSettings, PpoSettings};
-use crate::network::{ActorCritic, Adam, Output};
+use crate::network::{ActorCritic, Adam};
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use sonarfleet::random::{Stream, stream};
@@ -180,11 +181,11 @@ impl<E: Environment, N: ActorCritic> Trainer<E, N> {
             (0..settings.rollout_size() / settings.sequence_length).collect();
         let per_minibatch = settings.minibatch_size / settings.sequence_length;
         let mut minibatches = Vec::new();
-        let mut room = Room::<N>::new(self.state.weights.len());
+        let mut shards = Shards::default();
         for _ in 0..settings.update_epochs {
             sequences.shuffle(&mut self.state.shuffling);
             for sequences in sequences.chunks(per_minibatch) {
-                minibatches.push(self.learn(sequences, learning_rate, ent_coef, &mut room));
+                minibatches.push(self.learn(sequences, learning_rate, ent_coef, &mut shards));
             }
             let kl = minibatches.last().map_or(0.0, |losses| losses.approx_kl);
             if self.settings.target_kl.is_some_and(|most| kl > f64::from(most)) {
@@ -212,14 +213,21 @@ impl<E: Environment, N: ActorCritic> Trainer<E, N> {
         sequences: &[usize],
         learning_rate: f32,
         ent_coef: f32,
-        room: &mut Room<N>,
+        shards: &mut Shards<N>,
     ) -> Losses {
-        let (network, settings, state) = (&self.network, &self.settings, &mut self.state);
-        let Room { targets, activations, output, gradient } = room;
-        let batch = minibatch(network, settings, &self.trajectories, sequences, targets);
-        network.forward(&state.weights, &batch, activations, output);
-        let mut losses = loss(settings, ent_coef, targets, output);
-        network.backward(&state.weights, &batch, activations, output, gradient);
+        let (settings, state) = (&self.settings, &mut self.state);
+        let learner = Learner {
+            network: &self.network,
+            weights: &state.weights,
+            settings,
+            ent_coef,
+            rollout: Rollout {
+                trajectories: &self.trajectories,
+                steps: settings.sequence_length,
+                per_trajectory: settings.num_steps / settings.sequence_length,
+            },
+        };
+        let (mut losses, gradient) = learner.gradient(sequences, shards);
         let norm = state.adam.step_clipped(
             &mut state.weights,
             gradient,
@@ -228,25 +236,6 @@ impl<E: Environment, N: ActorCritic> Trainer<E, N> {
         );
         losses.gradient_norm = f64::from(norm);
         losses
-    }
-}
-
-/// What minibatches are computed in.
-struct Room<N: ActorCritic> {
-    targets: Targets,
-    activations: N::Activations,
-    output: Output,
-    gradient: Vec<f32>,
-}
-
-impl<N: ActorCritic> Room<N> {
-    fn new(weights: usize) -> Self {
-        Self {
-            targets: Targets::default(),
-            activations: N::Activations::default(),
-            output: Output::default(),
-            gradient: vec![0.0; weights],
-        }
     }
 }
 
