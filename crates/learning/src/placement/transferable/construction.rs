@@ -18,6 +18,9 @@ const THIRD_WEIGHT: f32 = 0.3;
 /// to be brought up to date.
 const UNNOTICED: f32 = 1e-4;
 
+/// Stations fewer than this have no two eigenvectors to look for.
+const FEW: usize = 4;
+
 /// Features are kept within this.
 const LIMIT: f32 = 4.0;
 
@@ -91,6 +94,31 @@ impl<'l> Construction<'l> {
         construction
     }
 
+    /// A layout with some of its vehicles placed. The same as to place one after the
+    /// other, but for the rounding and for where the eigenvectors come from.
+    pub(super) fn begun(landscape: &'l Landscape<'l>, threshold: f64, cells: &[CellId]) -> Self {
+        let mut construction = Self::new(landscape, threshold);
+        if construction.placed.len() + cells.len() < FEW {
+            for &CellId(cell) in cells {
+                construction.place(cell as u32);
+            }
+            return construction;
+        }
+        for &CellId(cell) in cells {
+            construction.free[cell] = false;
+            for &(target, p_d) in landscape.hears.row(cell) {
+                construction.residual[target as usize] *= 1.0 - p_d;
+            }
+            construction.link(cell as u32);
+        }
+        for target in 0..landscape.residual.len() {
+            let found = landscape.residual[target] - construction.residual[target];
+            construction.take(target, found);
+        }
+        construction.spectrum.find(&construction.weights, &construction.station_degrees);
+        construction
+    }
+
     /// The vehicles' cells, in the order of their placement.
     pub(super) fn layout(&self) -> Vec<CellId> {
         let fixed = self.landscape.problem.fixed_sensors().len();
@@ -109,19 +137,29 @@ impl<'l> Construction<'l> {
         for &(target, p_d) in self.landscape.hears.row(cell as usize) {
             let found = self.residual[target as usize] * p_d;
             self.residual[target as usize] -= found;
-            self.utility += found;
-            if found < UNNOTICED * self.landscape.largest_prior {
-                continue;
-            }
-            for &(sonar, p_d) in self.landscape.heard.row(target as usize) {
-                self.gains[sonar as usize] -= found * p_d;
-            }
+            self.take(target as usize, found);
         }
         self.connect(cell);
     }
 
+    /// What is newly found at a target can no longer be gained.
+    fn take(&mut self, target: usize, found: f32) {
+        self.utility += found;
+        if found < UNNOTICED * self.landscape.largest_prior {
+            return;
+        }
+        for &(sonar, p_d) in self.landscape.heard.row(target) {
+            self.gains[sonar as usize] -= found * p_d;
+        }
+    }
+
     /// Makes a station part of the network.
     fn connect(&mut self, cell: u32) {
+        self.link(cell);
+        self.spectrum.follow(&self.weights, &self.station_degrees);
+    }
+
+    fn link(&mut self, cell: u32) {
         let n = self.placed.len();
         let mut weights = vec![0.0; (n + 1) * (n + 1)];
         for (i, row) in self.weights.chunks_exact(n.max(1)).enumerate() {
@@ -141,7 +179,6 @@ impl<'l> Construction<'l> {
         for &(to, link) in self.landscape.links.row(cell as usize) {
             self.degrees[to as usize] += link;
         }
-        self.spectrum.follow(&self.weights, &self.station_degrees);
     }
 
     /// What the policy sees. A cell that is no candidate cannot be chosen.

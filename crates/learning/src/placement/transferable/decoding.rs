@@ -3,10 +3,12 @@
 use super::episode::{Drawing, Workspace, build};
 use super::landscape::Landscape;
 use super::network::Network;
+use super::revision;
+use rand::Rng;
 use rayon::prelude::*;
 use sonarfleet::grid::CellId;
 use sonarfleet::placement::Evaluation;
-use sonarfleet::random::stream;
+use sonarfleet::random::{Stream, stream};
 
 /// A complete layout and what it achieves.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +22,8 @@ pub struct Sample {
 }
 
 /// How the policy's layouts are drawn: a first round over a range of aims τ′, then
-/// rounds around the aim whose layouts just reach τ, by a fit of log λ₂ against log τ′.
+/// rounds around the aim whose layouts just reach τ, by a fit of log λ₂ against log τ′;
+/// then rounds in which the policy places some vehicles of the best layouts anew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decoding {
     /// Layouts of the first round.
@@ -31,21 +34,33 @@ pub struct Decoding {
     pub round: usize,
     /// Further rounds.
     pub rounds: usize,
+    /// Layouts of each round of revisions.
+    pub revisions: usize,
+    /// Rounds of revisions.
+    pub revision_rounds: usize,
     /// Divides the logits.
     pub temperature: f32,
 }
 
 impl Default for Decoding {
-    /// 64 layouts in all.
+    /// 40 layouts from nothing, and revisions for about as long.
     fn default() -> Self {
-        Self { probes: 16, range: [0.55, 1.7], round: 24, rounds: 2, temperature: 0.6 }
+        Self {
+            probes: 16,
+            range: [0.55, 1.7],
+            round: 24,
+            rounds: 1,
+            revisions: 8,
+            revision_rounds: 12,
+            temperature: 0.6,
+        }
     }
 }
 
 impl Decoding {
     /// Number of layouts drawn.
     pub const fn samples(&self) -> usize {
-        self.probes + self.round * self.rounds
+        self.probes + self.round * self.rounds + self.revisions * self.revision_rounds
     }
 
     /// The layouts, in the order of their drawing.
@@ -66,6 +81,20 @@ impl Decoding {
             let drawn = samples.len() as u64;
             samples.extend(self.round(network, landscape, &aims, seed, drawn));
         }
+        for _ in 0..self.revision_rounds {
+            let parents = revision::parents(&samples);
+            let drawn = samples.len() as u64;
+            let revised: Vec<Sample> = (0..self.revisions as u64)
+                .into_par_iter()
+                .map_init(Workspace::default, |workspace, index| {
+                    let mut random = stream(seed, "placement/policy", drawn + index);
+                    let parent = parents[random.random_range(0..parents.len())];
+                    let kept = revision::kept(&parent.layout, landscape.columns, &mut random);
+                    self.sample(network, landscape, &kept, parent.aim, &mut random, workspace)
+                })
+                .collect();
+            samples.extend(revised);
+        }
         samples
     }
 
@@ -77,18 +106,29 @@ impl Decoding {
         seed: u64,
         drawn: u64,
     ) -> Vec<Sample> {
-        let threshold = landscape.problem.connectivity_threshold();
         aims.par_iter()
             .enumerate()
             .map_init(Workspace::default, |workspace, (index, &aim)| {
                 let mut random = stream(seed, "placement/policy", drawn + index as u64);
-                let drawing = Drawing { threshold: aim * threshold, temperature: self.temperature };
-                let layout =
-                    build(network, landscape, drawing, &mut random, workspace, |_, _, _| {});
-                let evaluation = landscape.problem.evaluate(&layout);
-                Sample { layout, evaluation, aim }
+                self.sample(network, landscape, &[], aim, &mut random, workspace)
             })
             .collect()
+    }
+
+    fn sample(
+        &self,
+        network: &Network,
+        landscape: &Landscape,
+        begun: &[CellId],
+        aim: f64,
+        random: &mut Stream,
+        workspace: &mut Workspace,
+    ) -> Sample {
+        let threshold = aim * landscape.problem.connectivity_threshold();
+        let drawing = Drawing { threshold, temperature: self.temperature };
+        let layout = build(network, landscape, begun, drawing, random, workspace, |_, _, _| {});
+        let evaluation = landscape.problem.evaluate(&layout);
+        Sample { layout, evaluation, aim }
     }
 
     /// The aim whose layouts are expected to just reach τ, and how far around it to

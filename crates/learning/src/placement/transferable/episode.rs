@@ -73,18 +73,19 @@ pub(super) struct Drawing {
     pub(super) temperature: f32,
 }
 
-/// Builds a layout; `watch` sees each observation with the candidate chosen and the
-/// logarithm of its probability.
+/// Builds a layout from some cells that are taken; `watch` sees each observation with
+/// the candidate chosen and the logarithm of its probability.
 pub(super) fn build(
     network: &Network,
     landscape: &Landscape,
+    begun: &[CellId],
     drawing: Drawing,
     random: &mut Stream,
     workspace: &mut Workspace,
     mut watch: impl FnMut(&Observation, usize, f32),
 ) -> Vec<CellId> {
     let Workspace { observation, activations } = workspace;
-    let mut construction = Construction::new(landscape, drawing.threshold);
+    let mut construction = Construction::begun(landscape, drawing.threshold, begun);
     while !construction.is_complete() {
         construction.observe(observation);
         let count = observation.cells.len();

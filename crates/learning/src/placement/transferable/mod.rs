@@ -10,6 +10,7 @@ mod network;
 mod observation;
 mod policy;
 mod reinforcement;
+mod revision;
 mod spectrum;
 mod training;
 mod update;

@@ -319,7 +319,7 @@ fn outer<S: Simd, const N: usize>(
 ) {
     const ROWS: usize = 8;
     for (block, slopes) in slopes.chunks_exact(ROWS).enumerate() {
-        for part in 0..HIDDEN / S::F32_LANES {
+        for part in 0..N.div_ceil(S::F32_LANES) {
             let mut sums = [simd.splat_f32s(0.0); ROWS];
             for (candidate, input) in inputs.iter().enumerate() {
                 let value = S::as_simd_f32s(input).0[part];

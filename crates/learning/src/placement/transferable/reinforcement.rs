@@ -49,6 +49,7 @@ pub(super) fn group(
             let layout = build(
                 network,
                 landscape,
+                &[],
                 drawing,
                 &mut random,
                 workspace,
