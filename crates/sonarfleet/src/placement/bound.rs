@@ -3,6 +3,10 @@
 use super::PlacementProblem;
 use super::coverage::{Coverage, scalar_product, sum};
 use crate::grid::CellId;
+use rayon::prelude::*;
+
+/// Cells that are worth another thread's while.
+const CELLS_PER_TASK: usize = 128;
 
 /// An upper bound on `J_d` of every layout of the problem's size, feasible or not:
 /// it does not know about connectivity.
@@ -83,11 +87,18 @@ fn most_weight(problem: &PlacementProblem, weights: &[f32]) -> Vec<(f32, CellId)
     let total = sum(weights);
     let mut cells: Vec<(f32, CellId)> = problem
         .deployable()
-        .iter()
+        .par_iter()
+        .with_min_len(CELLS_PER_TASK)
         .map(|&cell| (total - scalar_product(weights, problem.miss(cell)), cell))
         .collect();
-    cells.sort_by(|a, b| b.0.total_cmp(&a.0));
-    cells.truncate(problem.vehicles());
+    let largest_first =
+        |a: &(f32, CellId), b: &(f32, CellId)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+    let vehicles = problem.vehicles();
+    if vehicles < cells.len() {
+        cells.select_nth_unstable_by(vehicles, largest_first);
+        cells.truncate(vehicles);
+    }
+    cells.sort_unstable_by(largest_first);
     cells
 }
 

@@ -30,7 +30,7 @@ const fn contestant(method: &'static str, words: &'static str, evaluations: u64)
 
 /// The paper's deployment by chance.
 pub(super) const RANDOM: Contestant = contestant("random", "Random layout", 1);
-/// It draws 64 layouts whatever the budget.
+/// It draws as many layouts as it does, whatever the budget.
 pub(super) const POLICY: Contestant = contestant("policy", "Policy, no training", 1);
 /// Its proposals are changes of a layout, which cost a fraction of an evaluation.
 pub(super) const AUTO: Contestant = contestant("auto", "Auto", 1_000_000);

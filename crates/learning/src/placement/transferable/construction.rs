@@ -42,6 +42,8 @@ pub(super) struct Construction<'l> {
     degrees: Vec<f32>,
     free: Vec<bool>,
     placed: Vec<u32>,
+    /// Stations in the 3 × 3 and 5 × 5 cells around one, [cell].
+    around: Vec<[u8; 2]>,
     station_degrees: Vec<f64>,
     /// [station, station]
     weights: Vec<f64>,
@@ -82,6 +84,7 @@ impl<'l> Construction<'l> {
             degrees: vec![0.0; cells],
             free,
             placed: Vec::with_capacity(landscape.stations()),
+            around: vec![[0; 2]; cells],
             station_degrees: Vec::with_capacity(landscape.stations()),
             weights: Vec::new(),
             spectrum: Spectrum::default(),
@@ -175,6 +178,7 @@ impl<'l> Construction<'l> {
         }
         self.weights = weights;
         self.placed.push(cell);
+        self.surround(cell);
         self.station_degrees.push(degree);
         for &(to, link) in self.landscape.links.row(cell as usize) {
             self.degrees[to as usize] += link;
@@ -253,25 +257,23 @@ impl<'l> Construction<'l> {
     fn choose(&self, candidates: &mut Vec<u32>) {
         let anywhere = self.placed.is_empty();
         let is_free = |&cell: &u32| self.free[cell as usize];
+        let free = || self.landscape.deployable.iter().copied().filter(is_free);
+        let linked = |&cell: &u32| anywhere || self.degrees[cell as usize] > LINKED;
+        let gain = |cell: u32| self.gains[cell as usize];
         candidates.clear();
-        let mut free: Vec<u32> =
-            self.landscape.deployable.iter().copied().filter(is_free).collect();
-        let linked = |cell: u32| anywhere || self.degrees[cell as usize] > LINKED;
-        let mut near: Vec<u32> = free.iter().copied().filter(|&cell| linked(cell)).collect();
-        if near.is_empty() {
-            near.clone_from(&free);
+        candidates.extend(free().filter(linked));
+        if candidates.is_empty() {
+            candidates.extend(free());
         }
-        let by_gain = if anywhere { CANDIDATES } else { BY_GAIN };
-        keep_largest(&mut near, by_gain, |cell| self.gains[cell as usize]);
-        candidates.append(&mut near);
+        keep_largest(candidates, if anywhere { CANDIDATES } else { BY_GAIN }, gain);
         candidates.sort_unstable();
         if !anywhere {
-            free.retain(|cell| candidates.binary_search(cell).is_err());
-            let left = CANDIDATES - candidates.len();
-            keep_largest(&mut free, left.min(CANDIDATES - BY_GAIN), |cell| {
-                self.network_gain(cell as usize)
-            });
-            candidates.append(&mut free);
+            let mut chosen = candidates.iter().peekable();
+            let mut others: Vec<u32> =
+                free().filter(|cell| chosen.next_if_eq(&cell).is_none()).collect();
+            let left = (CANDIDATES - candidates.len()).min(CANDIDATES - BY_GAIN);
+            keep_largest(&mut others, left, |cell| self.network_gain(cell as usize));
+            candidates.append(&mut others);
             candidates.sort_unstable();
         }
     }
@@ -309,7 +311,7 @@ impl<'l> Construction<'l> {
             let [raised, raised_third] = self.sums.raised[at];
             let [position, position_third] = self.sums.positions[at];
             let (near_mean, near_sum) = self.gains_nearby(at);
-            let [around, around_wide] = self.placed_around(cell);
+            let [around, around_wide] = self.around[at].map(f32::from);
             let (distance, relative) = centre.distance(cell, landscape.columns, n);
             let own = [
                 gain * per_gain,
@@ -335,8 +337,8 @@ impl<'l> Construction<'l> {
                 (near_sum * per_gain).max(0.0).ln_1p() / 3.0,
                 landscape.potential[at],
                 landscape.reach[at],
-                around,
-                around_wide,
+                around / 8.0,
+                around_wide / 24.0,
                 self.residual[at] / landscape.largest_prior,
             ];
             for (row, value) in observation.features.iter_mut().zip(own.iter().chain(&shared)) {
@@ -354,27 +356,25 @@ impl<'l> Construction<'l> {
     fn gains_nearby(&self, cell: usize) -> (f32, f32) {
         let (mut sum, mut weight) = (0.0, 0.0);
         for &(to, link) in self.landscape.links.row(cell) {
-            if self.free[to as usize] {
-                sum += link * self.gains[to as usize];
-                weight += link;
-            }
+            // Without a branch: which of them are free is hard to foretell.
+            let link = if self.free[to as usize] { link } else { 0.0 };
+            sum += link * self.gains[to as usize];
+            weight += link;
         }
         (sum * reciprocal(weight), sum)
     }
 
-    /// Shares of the 3 × 3 and 5 × 5 cells around one that are taken by stations.
-    fn placed_around(&self, cell: u32) -> [f32; 2] {
-        let columns = self.landscape.columns as i32;
-        let (column, row) = (cell as i32 % columns, cell as i32 / columns);
-        let (mut near, mut wide) = (0.0, 0.0);
-        for &station in &self.placed {
-            let dx = (station as i32 % columns - column).abs();
-            let dy = (station as i32 / columns - row).abs();
-            let distance = dx.max(dy);
-            near += if distance <= 1 { 1.0 } else { 0.0 };
-            wide += if distance <= 2 { 1.0 } else { 0.0 };
+    /// Counts a station for the cells around it.
+    fn surround(&mut self, cell: u32) {
+        let (columns, rows) = (self.landscape.columns, self.landscape.rows);
+        let (column, row) = (cell as usize % columns, cell as usize / columns);
+        for y in row.saturating_sub(2)..rows.min(row + 3) {
+            for x in column.saturating_sub(2)..columns.min(column + 3) {
+                let [near, wide] = &mut self.around[y * columns + x];
+                *near += u8::from(x.abs_diff(column) < 2 && y.abs_diff(row) < 2);
+                *wide += 1;
+            }
         }
-        [near / 8.0, wide / 24.0]
     }
 
     /// Middle and spread of those placed, in cells.
@@ -426,14 +426,22 @@ fn reciprocal(value: f32) -> f32 {
 
 /// Keeps the cells with the largest values, ties to the lower index.
 fn keep_largest(cells: &mut Vec<u32>, count: usize, value: impl Fn(u32) -> f32) {
-    if cells.len() > count {
-        let mut keyed: Vec<(f32, u32)> = cells.iter().map(|&cell| (value(cell), cell)).collect();
-        if count > 0 {
-            keyed.select_nth_unstable_by(count - 1, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        }
-        cells.clear();
-        cells.extend(keyed[..count].iter().map(|&(_, cell)| cell));
+    if cells.len() <= count {
+        return;
     }
+    // The order of `f32::total_cmp` as that of unsigned numbers, then the cell: integers
+    // are much faster to select among.
+    let key = |cell: u32| {
+        let bits = value(cell).to_bits();
+        let ordered = if bits >> 31 == 0 { bits | 1 << 31 } else { !bits };
+        u64::from(!ordered) << 32 | u64::from(cell)
+    };
+    let mut keyed: Vec<u64> = cells.iter().map(|&cell| key(cell)).collect();
+    if count > 0 {
+        keyed.select_nth_unstable(count - 1);
+    }
+    cells.clear();
+    cells.extend(keyed[..count].iter().map(|&key| key as u32));
 }
 
 #[cfg(test)]
@@ -529,6 +537,37 @@ mod tests {
                 found
             })
             .collect()
+    }
+
+    /// Gains, what is found and links are those of placing one vehicle after the other;
+    /// λ₂ and λ₃ are as near as inverse iteration brings them.
+    #[test]
+    fn a_begun_layout_is_one_that_was_placed() {
+        const FOLLOWED: f64 = 0.05;
+        let problem = problem(false);
+        let landscape = Landscape::new(&problem);
+        for count in [0, 1, 2, 3, 4, 9] {
+            let cells: Vec<CellId> =
+                [17, 30, 52, 53, 66, 78, 79, 90, 101].map(CellId)[..count].to_vec();
+            let begun = Construction::begun(&landscape, 0.9, &cells);
+            let mut placed = Construction::new(&landscape, 0.9);
+            for &CellId(cell) in &cells {
+                placed.place(cell as u32);
+            }
+            assert_eq!(begun.layout(), cells);
+            assert_eq!(begun.free, placed.free);
+            assert_eq!(begun.around, placed.around);
+            assert_eq!(begun.weights, placed.weights);
+            assert!((begun.utility - placed.utility).abs() < ROUNDING * placed.utility.max(1.0));
+            let close = |a: &[f32], b: &[f32]| {
+                a.iter().zip(b).all(|(a, b)| (a - b).abs() < ROUNDING * landscape.best_first_gain)
+            };
+            assert!(close(&begun.gains, &placed.gains) && close(&begun.residual, &placed.residual));
+            for (found, followed) in begun.spectrum.values.iter().zip(placed.spectrum.values) {
+                let error = (found - followed).abs();
+                assert!(error <= FOLLOWED * followed, "{count}: {found}, followed {followed}");
+            }
+        }
     }
 
     #[test]

@@ -58,6 +58,13 @@ impl Default for Decoding {
 }
 
 impl Decoding {
+    /// For a search that goes on from the layouts: as much time for layouts from nothing
+    /// alone. Revisions of one layout are alike, and where they lead is soon found.
+    #[must_use]
+    pub const fn diverse(self) -> Self {
+        Self { rounds: 2 * self.rounds, revision_rounds: 0, ..self }
+    }
+
     /// Number of layouts drawn.
     pub const fn samples(&self) -> usize {
         self.probes + self.round * self.rounds + self.revisions * self.revision_rounds

@@ -21,10 +21,14 @@ impl TransferablePolicy {
         Self { network, decoding: Decoding::default() }
     }
 
+    /// Layouts in the order of their drawing.
+    fn draw(&self, problem: &PlacementProblem, seed: u64) -> Vec<Sample> {
+        self.decoding.draw(&self.network, &Landscape::new(problem), seed)
+    }
+
     /// Layouts for a problem, the best first.
     pub fn samples(&self, problem: &PlacementProblem, seed: u64) -> Vec<Sample> {
-        let landscape = Landscape::new(problem);
-        let mut samples = self.decoding.draw(&self.network, &landscape, seed);
+        let mut samples = self.draw(problem, seed);
         samples.sort_by(|a, b| b.evaluation.compare(&a.evaluation));
         samples
     }
@@ -37,8 +41,7 @@ impl Solver for TransferablePolicy {
 
     /// The best of the layouts drawn, whatever the budget.
     fn solve(&self, problem: &PlacementProblem, _budget: Budget, seed: u64) -> Placement {
-        let landscape = Landscape::new(problem);
-        let samples = self.decoding.draw(&self.network, &landscape, seed);
+        let samples = self.draw(problem, seed);
         let mut history: Vec<(u64, f64)> = Vec::new();
         let mut best: Option<&Sample> = None;
         for (index, sample) in samples.iter().enumerate() {
@@ -60,6 +63,7 @@ impl Proposer for TransferablePolicy {
     }
 
     fn propose(&self, problem: &PlacementProblem, seed: u64) -> Vec<Vec<CellId>> {
-        self.samples(problem, seed).into_iter().map(|sample| sample.layout).collect()
+        let policy = Self { decoding: self.decoding.diverse(), network: self.network.clone() };
+        policy.samples(problem, seed).into_iter().map(|sample| sample.layout).collect()
     }
 }
